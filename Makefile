@@ -8,7 +8,7 @@ BIN = .venv/bin
 PYTEST = OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest
 HOW_TO_RUN = @echo 'To run physexp: $(BIN)/physexp --help; or without the folder, after: . $(BIN)/activate'
 
-.PHONY: help install demo test test-all soak lint docs bench clean
+.PHONY: help install demo test test-all soak lint docs page bench clean
 .NOTPARALLEL: # Two installations at once would write into one environment.
 .DEFAULT_GOAL = help
 
@@ -39,6 +39,9 @@ lint: .venv/installed-test ## Run ruff and the type checker.
 
 docs: .venv/installed-docs ## Build the documentation into docs/_build/html; a warning is an error. It runs the notebook.
 	$(BIN)/python -m sphinx -W --keep-going -q docs docs/_build/html
+
+page: ## Build the page to play on into the package from its sources in `page`, always the same bytes; this needs node.
+	cd page && npm ci --ignore-scripts && npm run build
 
 bench: .venv/installed-all ## Measure the speed of resets, batches and training.
 	$(BIN)/physexp bench

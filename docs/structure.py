@@ -34,7 +34,7 @@ PURPOSES = {
     "replay": "episodes for rerun",
     "score": "score, verify, export",
     "experiments": "claims, report",
-    "play": "a game in the terminal",
+    "play": "games for people",
     "bench": "measurements of speed",
     "cli": "the command physexp",
 }

@@ -8,6 +8,7 @@ COMMANDS = {
     "evaluate": playing.Evaluate,
     "replay": playing.Replay,
     "play": playing.Play,
+    "page": playing.Page,
     "publish": playing.Publish,
     "ideal": ideal.Ideal,
     "score": score.Score,

@@ -95,13 +95,50 @@ class Play:
     words: tuple[str, ...] = word("DOMAIN TASK", TASK, "+")
     seed: int | None = option(None, "seed of the environment; by default one from the operating system")
     view: bool = option(False, "show the scene in rerun's viewer as well; this needs a display")
+    web: bool = option(False, "play in the browser instead, on a page that is served to this machine alone")
+    records: Path = option(Path("records.jsonl"), "the file to which --web appends the moves, for `physexp score`")
     task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
 
     def run(self) -> None:
         """Plays until the player stops."""
-        from physexp.analysis.play import game
+        domain, task = arguments.task_of(self.words)
+        if not self.web:
+            from physexp.analysis.play import game
 
-        game.play(*arguments.task_of(self.words), self.task_kwargs, self.seed, self.view)
+            game.play(domain, task, self.task_kwargs, self.seed, self.view)
+            return
+        from physexp.analysis.play import page
+        from physexp.analysis.score import protocol
+        from physexp.suite.engine import seeding
+
+        asked = protocol.question(domain, task, self.task_kwargs)
+        with printing.waiting(f"preparing {asked.name}"):
+            tasks = page.prepare([asked], seed=seeding.seed_from(self.seed))
+        page.serve(tasks, self.records, printing.tell)
+
+
+@dataclasses.dataclass
+class Page:
+    """Write the page on which people play in a browser, for any host of files; --single-file needs no host."""
+
+    folder: Path = word("FOLDER", "the folder to write, or the file with --single-file")
+    tasks: tuple[str, ...] = option((), "the tasks, DOMAIN/TASK[,OPTION=VALUE...]; by default all with features")
+    instances: int = option(20, "instances of each task")
+    seed: int | None = option(None, "seed of the instances; by default that of `physexp score`")
+    single_file: bool = option(False, "write one HTML file that a browser opens without a server")
+
+    def run(self) -> None:
+        """Prepares the tasks and writes the page."""
+        from physexp import checks, suite
+        from physexp.analysis.play import page
+        from physexp.analysis.score import protocol
+
+        count = checks.integer("instances", self.instances, 1, page.MOST_INSTANCES)
+        seed = protocol.ENVIRONMENT_SEED if self.seed is None else self.seed
+        names = self.tasks or [f"{domain}/{task}" for domain, task in suite.tagged("features")]
+        tasks = page.prepare(protocol.named(names), count, seed, printing.tell)
+        write = page.write_single if self.single_file else page.write
+        printing.tell(f"wrote {write(self.folder, tasks)}")
 
 
 @dataclasses.dataclass

@@ -144,7 +144,7 @@ def _instance(
         "answers": ledger.answers[index].tolist(),
         "fields": [_field(apparatus.model, name, *given) for name, given in fields],
         "strength": _flat(starts.strength),
-        "told": [_flat(task.tell(hidden, np.array([asked]))) for asked in range(task.rules.num_questions)],
+        "told": _told(task, hidden),
         "marks": dict(revealed.marks),
         "joined": [list(pair) for pair in revealed.joined],
         "tied": [list(pair) for pair in revealed.tied],
@@ -154,6 +154,12 @@ def _instance(
     if task.options.noise:
         found["noise"] = _noise(task, ledger, index)
     return found
+
+
+def _told(task: contract.Task, hidden: np.ndarray) -> list[list[list[float]]]:
+    """Returns what an episode tells, by the number of the question and that of steps taken."""
+    steps, numbers = range(task.rules.step_limit + 1), range(task.rules.num_questions)
+    return [[_flat(task.tell(hidden, np.array([asked]), np.array([step]))) for step in steps] for asked in numbers]
 
 
 def _start(starts: apparatus_lib.Starts, row: int) -> Data:

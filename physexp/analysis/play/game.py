@@ -1,18 +1,16 @@
 """A person's game in a terminal, beside the ideal experimenter and a trained agent on the same instances."""
 
 from collections.abc import Callable, Mapping
-import contextlib
 import dataclasses
 import shutil
 import textwrap
 from typing import Any
 
 from physexp import suite
-from physexp.agents import acting, core, environment_loop
 from physexp.agents import config as agent_config
-from physexp.analysis import domains
+from physexp.agents import core, environment_loop
+from physexp.analysis.play import others as others_lib
 from physexp.analysis.play import terminal
-from physexp.analysis.training import finding
 
 _QUIT, _HELP = "q", "?"
 
@@ -104,7 +102,10 @@ def play(
     observers = _viewers(domain, task, kwargs) if view else []
     rules = _rules(environment)
     show(rules)
-    others = _others(domain, task, kwargs, show)
+    others = others_lib.players(domain, task, kwargs)
+    if others_lib.TRAINED not in others:
+        trained = "".join(f" at {name} {agent_config.shown(value)}" for name, value in kwargs.items())
+        show(f"There is no agent trained{trained} to compare you with.\n")
     scores = {name: Score() for name in ("you", *others)}
     you = environment_loop.EnvironmentLoop(environment, _Person(environment.task, rules, read, show), observers)
     # The others play in an environment of their own, with the same instances.
@@ -137,24 +138,6 @@ def _outcome(environment: suite.Environment) -> str:
     right, interactions = int(ledger.num_right[0]), int(ledger.steps[0] - ledger.num_answered[0])
     verdict = f"right in {right} of {count} questions" if count > 1 else "right" if right else "wrong"
     return f"{verdict} after {interactions} interaction{'' if interactions == 1 else 's'}"
-
-
-def _others(domain: str, task: str, kwargs: dict[str, Any], show) -> dict[str, core.Actor]:
-    """Returns the players to compare with."""
-    others: dict[str, core.Actor] = {}
-    facts = domains.find(domain)
-    ideal = facts.ideal_with(kwargs)
-    try:
-        network, *_ = finding.shipped_agent(domain, task, kwargs)
-    except ValueError:
-        trained = "".join(f" at {name} {agent_config.shown(value)}" for name, value in kwargs.items())
-        show(f"There is no agent trained{trained} to compare you with.\n")
-    else:
-        others["trained agent"] = acting.RecurrentActor(network)
-    if ideal is not None:
-        with contextlib.suppress(ValueError):  # If it cannot play.
-            others["ideal experimenter"] = ideal(task, kwargs, facts.discount).actor()
-    return others
 
 
 def _rules(environment: suite.Environment) -> str:

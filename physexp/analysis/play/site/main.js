@@ -1,0 +1,4248 @@
+var X_=(async function(i={}){var e,t=i,n=typeof window=="object",s=typeof WorkerGlobalScope<"u",o=typeof process=="object"&&process.versions?.node&&process.type!="renderer",c=!n&&!o&&!s;if(o){let{createRequire:r}=await import("module");var h=r(import.meta.url)}var f=[],d="./this.program",m=(r,a)=>{throw a},v=import.meta.url,g="";function S(r){return t.locateFile?t.locateFile(r,g):g+r}var w,R;if(o){if(!(typeof process=="object"&&process.versions?.node&&process.type!="renderer"))throw new Error("not compiled for this environment (did you build to HTML and try to run it not on the web, or set ENVIRONMENT to something - like node - and run it someplace else - like on the web?)");var x=process.versions.node,y=x.split(".").slice(0,3);if(y=y[0]*1e4+y[1]*100+y[2].split("-")[0]*1,y<16e4)throw new Error("This emscripten-generated code requires node v16.0.0 (detected v"+x+")");var I=h("fs");v.startsWith("file:")&&(g=h("path").dirname(h("url").fileURLToPath(v))+"/"),R=a=>{a=ne(a)?new URL(a):a;var l=I.readFileSync(a);return G(Buffer.isBuffer(l)),l},w=async(a,l=!0)=>{a=ne(a)?new URL(a):a;var u=I.readFileSync(a,l?void 0:"utf8");return G(l?Buffer.isBuffer(u):typeof u=="string"),u},process.argv.length>1&&(d=process.argv[1].replace(/\\/g,"/")),f=process.argv.slice(2),m=(a,l)=>{throw process.exitCode=a,l}}else if(c){if(typeof process=="object"&&process.versions?.node&&process.type!="renderer"||typeof window=="object"||typeof WorkerGlobalScope<"u")throw new Error("not compiled for this environment (did you build to HTML and try to run it not on the web, or set ENVIRONMENT to something - like node - and run it someplace else - like on the web?)")}else if(n||s){try{g=new URL(".",v).href}catch{}if(!(typeof window=="object"||typeof WorkerGlobalScope<"u"))throw new Error("not compiled for this environment (did you build to HTML and try to run it not on the web, or set ENVIRONMENT to something - like node - and run it someplace else - like on the web?)");s&&(R=r=>{var a=new XMLHttpRequest;return a.open("GET",r,!1),a.responseType="arraybuffer",a.send(null),new Uint8Array(a.response)}),w=async r=>{if(ne(r))return new Promise((l,u)=>{var p=new XMLHttpRequest;p.open("GET",r,!0),p.responseType="arraybuffer",p.onload=()=>{if(p.status==200||p.status==0&&p.response){l(p.response);return}u(p.status)},p.onerror=u,p.send(null)});var a=await fetch(r,{credentials:"same-origin"});if(a.ok)return a.arrayBuffer();throw new Error(a.status+" : "+a.url)}}else throw new Error("environment detection error");var O=console.log.bind(console),P=console.error.bind(console),U="IDBFS is no longer included by default; build with -lidbfs.js",N="PROXYFS is no longer included by default; build with -lproxyfs.js",b="WORKERFS is no longer included by default; build with -lworkerfs.js",L="FETCHFS is no longer included by default; build with -lfetchfs.js",q="ICASEFS is no longer included by default; build with -licasefs.js",k="JSFILEFS is no longer included by default; build with -ljsfilefs.js",Y="OPFS is no longer included by default; build with -lopfs.js",J="NODEFS is no longer included by default; build with -lnodefs.js";G(!c,"shell environment detected but not enabled at build time.  Add `shell` to `-sENVIRONMENT` to enable.");var ee;typeof WebAssembly!="object"&&P("no native wasm support detected");var z=!1,ie;function G(r,a){r||pe("Assertion failed"+(a?": "+a:""))}var ne=r=>r.startsWith("file://");function Se(){var r=xl();G((r&3)==0),r==0&&(r+=4),$e[r>>2]=34821223,$e[r+4>>2]=2310721022,$e[0]=1668509029}function re(){if(!z){var r=xl();r==0&&(r+=4);var a=$e[r>>2],l=$e[r+4>>2];(a!=34821223||l!=2310721022)&&pe(`Stack overflow! Stack cookie has been overwritten at ${Ot(r)}, expected hex dwords 0x89BACDFE and 0x2135467, but received ${Ot(l)} ${Ot(a)}`),$e[0]!=1668509029&&pe("Runtime error: The application has corrupted its heap memory area (address zero)!")}}class H extends Error{}class me extends H{}class We extends H{constructor(a){super(a),this.excPtr=a;let l=yh(a);this.name=l[0],this.message=l[1]}}var nt=!0;function ue(...r){!nt&&typeof nt<"u"||console.warn(...r)}(()=>{var r=new Int16Array(1),a=new Int8Array(r.buffer);if(r[0]=25459,a[0]!==115||a[1]!==99)throw"Runtime error: expected the system to be little-endian! (Run with -sSUPPORT_BIG_ENDIAN to bypass)"})();function Fe(r){Object.getOwnPropertyDescriptor(t,r)||Object.defineProperty(t,r,{configurable:!0,set(){pe(`Attempt to set \`Module.${r}\` after it has already been processed.  This can happen, for example, when code is injected via '--post-js' rather than '--pre-js'`)}})}function Pe(r){return()=>G(!1,`call to '${r}' via reference taken before Wasm module initialization`)}function Ye(r){Object.getOwnPropertyDescriptor(t,r)&&pe(`\`Module.${r}\` was supplied but \`${r}\` not included in INCOMING_MODULE_JS_API`)}function Ue(r){return r==="FS_createPath"||r==="FS_createDataFile"||r==="FS_createPreloadedFile"||r==="FS_unlink"||r==="addRunDependency"||r==="FS_createLazyFile"||r==="FS_createDevice"||r==="removeRunDependency"}function rt(r,a){typeof globalThis<"u"&&!Object.getOwnPropertyDescriptor(globalThis,r)&&Object.defineProperty(globalThis,r,{configurable:!0,get(){a()}})}function Gt(r,a){rt(r,()=>{Wn(`\`${r}\` is not longer defined by emscripten. ${a}`)})}Gt("buffer","Please use HEAP8.buffer or wasmMemory.buffer"),Gt("asm","Please use wasmExports instead");function Qe(r){rt(r,()=>{var a=`\`${r}\` is a library symbol and not included by default; add it to your library.js __deps or to DEFAULT_LIBRARY_FUNCS_TO_INCLUDE on the command line`,l=r;l.startsWith("_")||(l="$"+r),a+=` (e.g. -sDEFAULT_LIBRARY_FUNCS_TO_INCLUDE='${l}')`,Ue(r)&&(a+=". Alternatively, forcing filesystem support (-sFORCE_FILESYSTEM) can export this for you"),Wn(a)}),wt(r)}function wt(r){Object.getOwnPropertyDescriptor(t,r)||Object.defineProperty(t,r,{configurable:!0,get(){var a=`'${r}' was not exported. add it to EXPORTED_RUNTIME_METHODS (see the Emscripten FAQ)`;Ue(r)&&(a+=". Alternatively, forcing filesystem support (-sFORCE_FILESYSTEM) can export this for you"),pe(a)}})}var Tt,dt,Vt,ht,Rt,St,Qt,Le,$e,an,en,W,fn,At=!1;function Nt(){var r=Vt.buffer;ht=new Int8Array(r),St=new Int16Array(r),Rt=new Uint8Array(r),Qt=new Uint16Array(r),Le=new Int32Array(r),$e=new Uint32Array(r),an=new Float32Array(r),en=new Float64Array(r),W=new BigInt64Array(r),fn=new BigUint64Array(r)}G(typeof Int32Array<"u"&&typeof Float64Array<"u"&&Int32Array.prototype.subarray!=null&&Int32Array.prototype.set!=null,"JS engine does not provide full typed array support");function De(){if(t.preRun)for(typeof t.preRun=="function"&&(t.preRun=[t.preRun]);t.preRun.length;)lt(t.preRun.shift());Fe("preRun"),Xe(qe)}function Xt(){G(!At),At=!0,re(),!t.noFSInit&&!M.initialized&&M.init(),st.init(),Wi.__wasm_call_ctors(),M.ignorePermissions=!1}function je(){if(re(),t.postRun)for(typeof t.postRun=="function"&&(t.postRun=[t.postRun]);t.postRun.length;)we(t.postRun.shift());Fe("postRun"),Xe(ot)}var Je=0,D=null,T={},j=null;function ve(r){Je++,t.monitorRunDependencies?.(Je),r?(G(!T[r]),T[r]=1,j===null&&typeof setInterval<"u"&&(j=setInterval(()=>{if(z){clearInterval(j),j=null;return}var a=!1;for(var l in T)a||(a=!0,P("still waiting on run dependencies:")),P(`dependency: ${l}`);a&&P("(end of list)")},1e4))):P("warning: run dependency added without ID")}function de(r){if(Je--,t.monitorRunDependencies?.(Je),r?(G(T[r]),delete T[r]):P("warning: run dependency removed without ID"),Je==0&&(j!==null&&(clearInterval(j),j=null),D)){var a=D;D=null,a()}}function pe(r){t.onAbort?.(r),r="Aborted("+r+")",P(r),z=!0;var a=new WebAssembly.RuntimeError(r);throw dt?.(a),a}function Me(r,a){return(...l)=>{G(At,`native function \`${r}\` called before runtime initialization`);var u=Wi[r];return G(u,`exported native function \`${r}\` not found`),G(l.length<=a,`native function \`${r}\` called with ${l.length} args but expects ${a}`),u(...l)}}var ae;function le(){return t.locateFile?S("mujoco.wasm"):new URL("mujoco.wasm",import.meta.url).href}function Ce(r){if(r==ae&&ee)return new Uint8Array(ee);if(R)return R(r);throw"both async and sync fetching of the wasm failed"}async function B(r){if(!ee)try{var a=await w(r);return new Uint8Array(a)}catch{}return Ce(r)}async function he(r,a){try{var l=await B(r),u=await WebAssembly.instantiate(l,a);return u}catch(p){P(`failed to asynchronously prepare wasm: ${p}`),ne(ae)&&P(`warning: Loading from a file URI (${ae}) is not supported in most browsers. See https://emscripten.org/docs/getting_started/FAQ.html#how-do-i-run-a-local-webserver-for-testing-why-does-my-program-stall-in-downloading-or-preparing`),pe(p)}}async function se(r,a,l){if(!r&&typeof WebAssembly.instantiateStreaming=="function"&&!ne(a)&&!o)try{var u=fetch(a,{credentials:"same-origin"}),p=await WebAssembly.instantiateStreaming(u,l);return p}catch(_){P(`wasm streaming compile failed: ${_}`),P("falling back to ArrayBuffer instantiation")}return he(a,l)}function Re(){return{env:Ih,wasi_snapshot_preview1:Ih}}async function Ee(){function r(E,A){return Wi=E.exports,Vt=Wi.memory,G(Vt,"memory not found in wasm exports"),Nt(),js=Wi.__indirect_function_table,G(js,"table not found in wasm exports"),qp(Wi),de("wasm-instantiate"),Wi}ve("wasm-instantiate");var a=t;function l(E){return G(t===a,"the Module object should not be replaced during async compilation - perhaps the order of HTML elements is wrong?"),a=null,r(E.instance)}var u=Re();if(t.instantiateWasm)return new Promise((E,A)=>{try{t.instantiateWasm(u,(F,X)=>{E(r(F,X))})}catch(F){P(`Module.instantiateWasm callback failed with error: ${F}`),A(F)}});ae??=le();var p=await se(ee,ae,u),_=l(p);return _}class Ae{name="ExitStatus";constructor(a){this.message=`Program terminated with exit(${a})`,this.status=a}}var Xe=r=>{for(;r.length>0;)r.shift()(t)},ot=[],we=r=>ot.push(r),qe=[],lt=r=>qe.push(r);function Oe(r,a="i8"){switch(a.endsWith("*")&&(a="*"),a){case"i1":return ht[r];case"i8":return ht[r];case"i16":return St[r>>1];case"i32":return Le[r>>2];case"i64":return W[r>>3];case"float":return an[r>>2];case"double":return en[r>>3];case"*":return $e[r>>2];default:pe(`invalid type for getValue: ${a}`)}}var Et=!0,Ot=r=>(G(typeof r=="number"),r>>>=0,"0x"+r.toString(16).padStart(8,"0"));function oi(r,a,l="i8"){switch(l.endsWith("*")&&(l="*"),l){case"i1":ht[r]=a;break;case"i8":ht[r]=a;break;case"i16":St[r>>1]=a;break;case"i32":Le[r>>2]=a;break;case"i64":W[r>>3]=BigInt(a);break;case"float":an[r>>2]=a;break;case"double":en[r>>3]=a;break;case"*":$e[r>>2]=a;break;default:pe(`invalid type for setValue: ${l}`)}}var ye=r=>Eh(r),ge=()=>Ah(),Wn=r=>{Wn.shown||={},Wn.shown[r]||(Wn.shown[r]=1,o&&(r="warning: "+r),P(r))},Vr=typeof TextDecoder<"u"?new TextDecoder:void 0,li=(r,a=0,l=NaN)=>{for(var u=a+l,p=a;r[p]&&!(p>=u);)++p;if(p-a>16&&r.buffer&&Vr)return Vr.decode(r.subarray(a,p));for(var _="";a<p;){var E=r[a++];if(!(E&128)){_+=String.fromCharCode(E);continue}var A=r[a++]&63;if((E&224)==192){_+=String.fromCharCode((E&31)<<6|A);continue}var F=r[a++]&63;if((E&240)==224?E=(E&15)<<12|A<<6|F:((E&248)!=240&&Wn("Invalid UTF-8 leading byte "+Ot(E)+" encountered when deserializing a UTF-8 string in wasm memory to a JS string!"),E=(E&7)<<18|A<<12|F<<6|r[a++]&63),E<65536)_+=String.fromCharCode(E);else{var X=E-65536;_+=String.fromCharCode(55296|X>>10,56320|X&1023)}}return _},on=(r,a)=>(G(typeof r=="number",`UTF8ToString expects a number (got ${typeof r})`),r?li(Rt,r,a):""),Hr=(r,a,l,u)=>pe(`Assertion failed: ${on(r)}, at: `+[a?on(a):"unknown filename",l,u?on(u):"unknown function"]),An=[],Oi=0,sr=r=>{var a=new ar(r);return a.get_caught()||(a.set_caught(!0),Oi--),a.set_rethrown(!1),An.push(a),na(r),Ph(r)},Bs=()=>{if(!An.length)return 0;var r=An[An.length-1];return na(r.excPtr),r.excPtr},Cn=0,Bi=()=>{xe(0,0),G(An.length>0);var r=An.pop();Sl(r.excPtr),Cn=0};class ar{constructor(a){this.excPtr=a,this.ptr=a-24}set_type(a){$e[this.ptr+4>>2]=a}get_type(){return $e[this.ptr+4>>2]}set_destructor(a){$e[this.ptr+8>>2]=a}get_destructor(){return $e[this.ptr+8>>2]}set_caught(a){a=a?1:0,ht[this.ptr+12]=a}get_caught(){return ht[this.ptr+12]!=0}set_rethrown(a){a=a?1:0,ht[this.ptr+13]=a}get_rethrown(){return ht[this.ptr+13]!=0}init(a,l){this.set_adjusted_ptr(0),this.set_type(a),this.set_destructor(l)}set_adjusted_ptr(a){$e[this.ptr+16>>2]=a}get_adjusted_ptr(){return $e[this.ptr+16>>2]}}var ki=r=>bh(r),or=r=>{var a=Cn?.excPtr;if(!a)return ki(0),0;var l=new ar(a);l.set_adjusted_ptr(a);var u=l.get_type();if(!u)return ki(0),a;for(var p of r){if(p===0||p===u)break;var _=l.ptr+16;if(Rh(p,u,_))return ki(p),a}return ki(u),a},sl=()=>or([]),al=r=>or([r]),ol=(r,a)=>or([r,a]),Wr=()=>{var r=An.pop();r||pe("no exception to throw");var a=r.excPtr;throw r.get_rethrown()||(An.push(r),r.set_rethrown(!0),r.set_caught(!1),Oi++),Cn=new We(a),Cn},C=r=>{if(r){var a=new ar(r);An.push(a),a.set_rethrown(!0),Wr()}},V=(r,a,l)=>{var u=new ar(r);throw u.init(a,l),Cn=new We(r),Oi++,Cn},te=()=>Oi,Z=r=>{throw Cn||(Cn=new We(r)),Cn},$={isAbs:r=>r.charAt(0)==="/",splitPath:r=>{var a=/^(\/?|)([\s\S]*?)((?:\.{1,2}|[^\/]+?|)(\.[^.\/]*|))(?:[\/]*)$/;return a.exec(r).slice(1)},normalizeArray:(r,a)=>{for(var l=0,u=r.length-1;u>=0;u--){var p=r[u];p==="."?r.splice(u,1):p===".."?(r.splice(u,1),l++):l&&(r.splice(u,1),l--)}if(a)for(;l;l--)r.unshift("..");return r},normalize:r=>{var a=$.isAbs(r),l=r.slice(-1)==="/";return r=$.normalizeArray(r.split("/").filter(u=>!!u),!a).join("/"),!r&&!a&&(r="."),r&&l&&(r+="/"),(a?"/":"")+r},dirname:r=>{var a=$.splitPath(r),l=a[0],u=a[1];return!l&&!u?".":(u&&(u=u.slice(0,-1)),l+u)},basename:r=>r&&r.match(/([^\/]+|\/)\/*$/)[1],join:(...r)=>$.normalize(r.join("/")),join2:(r,a)=>$.normalize(r+"/"+a)},Ie=()=>{if(o){var r=h("crypto");return a=>r.randomFillSync(a)}return a=>crypto.getRandomValues(a)},ze=r=>{(ze=Ie())(r)},Te={resolve:(...r)=>{for(var a="",l=!1,u=r.length-1;u>=-1&&!l;u--){var p=u>=0?r[u]:M.cwd();if(typeof p!="string")throw new TypeError("Arguments to path.resolve must be strings");if(!p)return"";a=p+"/"+a,l=$.isAbs(p)}return a=$.normalizeArray(a.split("/").filter(_=>!!_),!l).join("/"),(l?"/":"")+a||"."},relative:(r,a)=>{r=Te.resolve(r).slice(1),a=Te.resolve(a).slice(1);function l(X){for(var K=0;K<X.length&&X[K]==="";K++);for(var oe=X.length-1;oe>=0&&X[oe]==="";oe--);return K>oe?[]:X.slice(K,oe-K+1)}for(var u=l(r.split("/")),p=l(a.split("/")),_=Math.min(u.length,p.length),E=_,A=0;A<_;A++)if(u[A]!==p[A]){E=A;break}for(var F=[],A=E;A<u.length;A++)F.push("..");return F=F.concat(p.slice(E)),F.join("/")}},Ne=[],Ge=r=>{for(var a=0,l=0;l<r.length;++l){var u=r.charCodeAt(l);u<=127?a++:u<=2047?a+=2:u>=55296&&u<=57343?(a+=4,++l):a+=3}return a},it=(r,a,l,u)=>{if(G(typeof r=="string",`stringToUTF8Array expects a string (got ${typeof r})`),!(u>0))return 0;for(var p=l,_=l+u-1,E=0;E<r.length;++E){var A=r.codePointAt(E);if(A<=127){if(l>=_)break;a[l++]=A}else if(A<=2047){if(l+1>=_)break;a[l++]=192|A>>6,a[l++]=128|A&63}else if(A<=65535){if(l+2>=_)break;a[l++]=224|A>>12,a[l++]=128|A>>6&63,a[l++]=128|A&63}else{if(l+3>=_)break;A>1114111&&Wn("Invalid Unicode code point "+Ot(A)+" encountered when serializing a JS string to a UTF-8 string in wasm memory! (Valid unicode code points should be in range 0-0x10FFFF)."),a[l++]=240|A>>18,a[l++]=128|A>>12&63,a[l++]=128|A>>6&63,a[l++]=128|A&63,E++}}return a[l]=0,l-p},ft=(r,a,l)=>{var u=l>0?l:Ge(r)+1,p=new Array(u),_=it(r,p,0,p.length);return a&&(p.length=_),p},Ve=()=>{if(!Ne.length){var r=null;if(o){var a=256,l=Buffer.alloc(a),u=0,p=process.stdin.fd;try{u=I.readSync(p,l,0,a)}catch(_){if(_.toString().includes("EOF"))u=0;else throw _}u>0&&(r=l.slice(0,u).toString("utf-8"))}else typeof window<"u"&&typeof window.prompt=="function"&&(r=window.prompt("Input: "),r!==null&&(r+=`
+`));if(!r)return null;Ne=ft(r,!0)}return Ne.shift()},st={ttys:[],init(){},shutdown(){},register(r,a){st.ttys[r]={input:[],output:[],ops:a},M.registerDevice(r,st.stream_ops)},stream_ops:{open(r){var a=st.ttys[r.node.rdev];if(!a)throw new M.ErrnoError(43);r.tty=a,r.seekable=!1},close(r){r.tty.ops.fsync(r.tty)},fsync(r){r.tty.ops.fsync(r.tty)},read(r,a,l,u,p){if(!r.tty||!r.tty.ops.get_char)throw new M.ErrnoError(60);for(var _=0,E=0;E<u;E++){var A;try{A=r.tty.ops.get_char(r.tty)}catch{throw new M.ErrnoError(29)}if(A===void 0&&_===0)throw new M.ErrnoError(6);if(A==null)break;_++,a[l+E]=A}return _&&(r.node.atime=Date.now()),_},write(r,a,l,u,p){if(!r.tty||!r.tty.ops.put_char)throw new M.ErrnoError(60);try{for(var _=0;_<u;_++)r.tty.ops.put_char(r.tty,a[l+_])}catch{throw new M.ErrnoError(29)}return u&&(r.node.mtime=r.node.ctime=Date.now()),_}},default_tty_ops:{get_char(r){return Ve()},put_char(r,a){a===null||a===10?(O(li(r.output)),r.output=[]):a!=0&&r.output.push(a)},fsync(r){r.output?.length>0&&(O(li(r.output)),r.output=[])},ioctl_tcgets(r){return{c_iflag:25856,c_oflag:5,c_cflag:191,c_lflag:35387,c_cc:[3,28,127,21,4,0,1,0,17,19,26,0,18,15,23,22,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]}},ioctl_tcsets(r,a,l){return 0},ioctl_tiocgwinsz(r){return[24,80]}},default_tty1_ops:{put_char(r,a){a===null||a===10?(P(li(r.output)),r.output=[]):a!=0&&r.output.push(a)},fsync(r){r.output?.length>0&&(P(li(r.output)),r.output=[])}}},Ht=r=>{pe("internal error: mmapAlloc called but `emscripten_builtin_memalign` native symbol not exported")},ke={ops_table:null,mount(r){return ke.createNode(null,"/",16895,0)},createNode(r,a,l,u){if(M.isBlkdev(l)||M.isFIFO(l))throw new M.ErrnoError(63);ke.ops_table||={dir:{node:{getattr:ke.node_ops.getattr,setattr:ke.node_ops.setattr,lookup:ke.node_ops.lookup,mknod:ke.node_ops.mknod,rename:ke.node_ops.rename,unlink:ke.node_ops.unlink,rmdir:ke.node_ops.rmdir,readdir:ke.node_ops.readdir,symlink:ke.node_ops.symlink},stream:{llseek:ke.stream_ops.llseek}},file:{node:{getattr:ke.node_ops.getattr,setattr:ke.node_ops.setattr},stream:{llseek:ke.stream_ops.llseek,read:ke.stream_ops.read,write:ke.stream_ops.write,mmap:ke.stream_ops.mmap,msync:ke.stream_ops.msync}},link:{node:{getattr:ke.node_ops.getattr,setattr:ke.node_ops.setattr,readlink:ke.node_ops.readlink},stream:{}},chrdev:{node:{getattr:ke.node_ops.getattr,setattr:ke.node_ops.setattr},stream:M.chrdev_stream_ops}};var p=M.createNode(r,a,l,u);return M.isDir(p.mode)?(p.node_ops=ke.ops_table.dir.node,p.stream_ops=ke.ops_table.dir.stream,p.contents={}):M.isFile(p.mode)?(p.node_ops=ke.ops_table.file.node,p.stream_ops=ke.ops_table.file.stream,p.usedBytes=0,p.contents=null):M.isLink(p.mode)?(p.node_ops=ke.ops_table.link.node,p.stream_ops=ke.ops_table.link.stream):M.isChrdev(p.mode)&&(p.node_ops=ke.ops_table.chrdev.node,p.stream_ops=ke.ops_table.chrdev.stream),p.atime=p.mtime=p.ctime=Date.now(),r&&(r.contents[a]=p,r.atime=r.mtime=r.ctime=p.atime),p},getFileDataAsTypedArray(r){return r.contents?r.contents.subarray?r.contents.subarray(0,r.usedBytes):new Uint8Array(r.contents):new Uint8Array(0)},expandFileStorage(r,a){var l=r.contents?r.contents.length:0;if(!(l>=a)){var u=1024*1024;a=Math.max(a,l*(l<u?2:1.125)>>>0),l!=0&&(a=Math.max(a,256));var p=r.contents;r.contents=new Uint8Array(a),r.usedBytes>0&&r.contents.set(p.subarray(0,r.usedBytes),0)}},resizeFileStorage(r,a){if(r.usedBytes!=a)if(a==0)r.contents=null,r.usedBytes=0;else{var l=r.contents;r.contents=new Uint8Array(a),l&&r.contents.set(l.subarray(0,Math.min(a,r.usedBytes))),r.usedBytes=a}},node_ops:{getattr(r){var a={};return a.dev=M.isChrdev(r.mode)?r.id:1,a.ino=r.id,a.mode=r.mode,a.nlink=1,a.uid=0,a.gid=0,a.rdev=r.rdev,M.isDir(r.mode)?a.size=4096:M.isFile(r.mode)?a.size=r.usedBytes:M.isLink(r.mode)?a.size=r.link.length:a.size=0,a.atime=new Date(r.atime),a.mtime=new Date(r.mtime),a.ctime=new Date(r.ctime),a.blksize=4096,a.blocks=Math.ceil(a.size/a.blksize),a},setattr(r,a){for(let l of["mode","atime","mtime","ctime"])a[l]!=null&&(r[l]=a[l]);a.size!==void 0&&ke.resizeFileStorage(r,a.size)},lookup(r,a){throw new M.ErrnoError(44)},mknod(r,a,l,u){return ke.createNode(r,a,l,u)},rename(r,a,l){var u;try{u=M.lookupNode(a,l)}catch{}if(u){if(M.isDir(r.mode))for(var p in u.contents)throw new M.ErrnoError(55);M.hashRemoveNode(u)}delete r.parent.contents[r.name],a.contents[l]=r,r.name=l,a.ctime=a.mtime=r.parent.ctime=r.parent.mtime=Date.now()},unlink(r,a){delete r.contents[a],r.ctime=r.mtime=Date.now()},rmdir(r,a){var l=M.lookupNode(r,a);for(var u in l.contents)throw new M.ErrnoError(55);delete r.contents[a],r.ctime=r.mtime=Date.now()},readdir(r){return[".","..",...Object.keys(r.contents)]},symlink(r,a,l){var u=ke.createNode(r,a,41471,0);return u.link=l,u},readlink(r){if(!M.isLink(r.mode))throw new M.ErrnoError(28);return r.link}},stream_ops:{read(r,a,l,u,p){var _=r.node.contents;if(p>=r.node.usedBytes)return 0;var E=Math.min(r.node.usedBytes-p,u);if(G(E>=0),E>8&&_.subarray)a.set(_.subarray(p,p+E),l);else for(var A=0;A<E;A++)a[l+A]=_[p+A];return E},write(r,a,l,u,p,_){if(G(!(a instanceof ArrayBuffer)),a.buffer===ht.buffer&&(_=!1),!u)return 0;var E=r.node;if(E.mtime=E.ctime=Date.now(),a.subarray&&(!E.contents||E.contents.subarray)){if(_)return G(p===0,"canOwn must imply no weird position inside the file"),E.contents=a.subarray(l,l+u),E.usedBytes=u,u;if(E.usedBytes===0&&p===0)return E.contents=a.slice(l,l+u),E.usedBytes=u,u;if(p+u<=E.usedBytes)return E.contents.set(a.subarray(l,l+u),p),u}if(ke.expandFileStorage(E,p+u),E.contents.subarray&&a.subarray)E.contents.set(a.subarray(l,l+u),p);else for(var A=0;A<u;A++)E.contents[p+A]=a[l+A];return E.usedBytes=Math.max(E.usedBytes,p+u),u},llseek(r,a,l){var u=a;if(l===1?u+=r.position:l===2&&M.isFile(r.node.mode)&&(u+=r.node.usedBytes),u<0)throw new M.ErrnoError(28);return u},mmap(r,a,l,u,p){if(!M.isFile(r.node.mode))throw new M.ErrnoError(43);var _,E,A=r.node.contents;if(!(p&2)&&A&&A.buffer===ht.buffer)E=!1,_=A.byteOffset;else{if(E=!0,_=Ht(a),!_)throw new M.ErrnoError(48);A&&((l>0||l+a<A.length)&&(A.subarray?A=A.subarray(l,l+a):A=Array.prototype.slice.call(A,l,l+a)),ht.set(A,_))}return{ptr:_,allocated:E}},msync(r,a,l,u,p){return ke.stream_ops.write(r,a,0,u,l,!1),0}}},Pt=async r=>{var a=await w(r);return G(a,`Loading data file "${r}" failed (no arrayBuffer).`),new Uint8Array(a)},qt=(...r)=>M.createDataFile(...r),He=r=>{for(var a=r;;){if(!T[r])return r;r=a+Math.random()}},tn=[],Mt=(r,a,l,u)=>{typeof Browser<"u"&&Browser.init();var p=!1;return tn.forEach(_=>{p||_.canHandle(a)&&(_.handle(r,a,l,u),p=!0)}),p},Xn=(r,a,l,u,p,_,E,A,F,X)=>{var K=a?Te.resolve($.join2(r,a)):r,oe=He(`cp ${K}`);function fe(ce){function _e(Ze){X?.(),A||qt(r,a,Ze,u,p,F),_?.(),de(oe)}Mt(ce,K,_e,()=>{E?.(),de(oe)})||_e(ce)}ve(oe),typeof l=="string"?Pt(l).then(fe,E):fe(l)},nn=r=>{var a={r:0,"r+":2,w:577,"w+":578,a:1089,"a+":1090},l=a[r];if(typeof l>"u")throw new Error(`Unknown file open mode: ${r}`);return l},Mi=(r,a)=>{var l=0;return r&&(l|=365),a&&(l|=146),l},$n=r=>on(Mh(r)),qn={EPERM:63,ENOENT:44,ESRCH:71,EINTR:27,EIO:29,ENXIO:60,E2BIG:1,ENOEXEC:45,EBADF:8,ECHILD:12,EAGAIN:6,EWOULDBLOCK:6,ENOMEM:48,EACCES:2,EFAULT:21,ENOTBLK:105,EBUSY:10,EEXIST:20,EXDEV:75,ENODEV:43,ENOTDIR:54,EISDIR:31,EINVAL:28,ENFILE:41,EMFILE:33,ENOTTY:59,ETXTBSY:74,EFBIG:22,ENOSPC:51,ESPIPE:70,EROFS:69,EMLINK:34,EPIPE:64,EDOM:18,ERANGE:68,ENOMSG:49,EIDRM:24,ECHRNG:106,EL2NSYNC:156,EL3HLT:107,EL3RST:108,ELNRNG:109,EUNATCH:110,ENOCSI:111,EL2HLT:112,EDEADLK:16,ENOLCK:46,EBADE:113,EBADR:114,EXFULL:115,ENOANO:104,EBADRQC:103,EBADSLT:102,EDEADLOCK:16,EBFONT:101,ENOSTR:100,ENODATA:116,ETIME:117,ENOSR:118,ENONET:119,ENOPKG:120,EREMOTE:121,ENOLINK:47,EADV:122,ESRMNT:123,ECOMM:124,EPROTO:65,EMULTIHOP:36,EDOTDOT:125,EBADMSG:9,ENOTUNIQ:126,EBADFD:127,EREMCHG:128,ELIBACC:129,ELIBBAD:130,ELIBSCN:131,ELIBMAX:132,ELIBEXEC:133,ENOSYS:52,ENOTEMPTY:55,ENAMETOOLONG:37,ELOOP:32,EOPNOTSUPP:138,EPFNOSUPPORT:139,ECONNRESET:15,ENOBUFS:42,EAFNOSUPPORT:5,EPROTOTYPE:67,ENOTSOCK:57,ENOPROTOOPT:50,ESHUTDOWN:140,ECONNREFUSED:14,EADDRINUSE:3,ECONNABORTED:13,ENETUNREACH:40,ENETDOWN:38,ETIMEDOUT:73,EHOSTDOWN:142,EHOSTUNREACH:23,EINPROGRESS:26,EALREADY:7,EDESTADDRREQ:17,EMSGSIZE:35,EPROTONOSUPPORT:66,ESOCKTNOSUPPORT:137,EADDRNOTAVAIL:4,ENETRESET:39,EISCONN:30,ENOTCONN:53,ETOOMANYREFS:141,EUSERS:136,EDQUOT:19,ESTALE:72,ENOTSUP:138,ENOMEDIUM:148,EILSEQ:25,EOVERFLOW:61,ECANCELED:11,ENOTRECOVERABLE:56,EOWNERDEAD:62,ESTRPIPE:135},M={root:null,mounts:[],devices:{},streams:[],nextInode:1,nameTable:null,currentPath:"/",initialized:!1,ignorePermissions:!0,filesystems:null,syncFSRequests:0,readFiles:{},ErrnoError:class extends Error{name="ErrnoError";constructor(r){super(At?$n(r):""),this.errno=r;for(var a in qn)if(qn[a]===r){this.code=a;break}}},FSStream:class{shared={};get object(){return this.node}set object(r){this.node=r}get isRead(){return(this.flags&2097155)!==1}get isWrite(){return(this.flags&2097155)!==0}get isAppend(){return this.flags&1024}get flags(){return this.shared.flags}set flags(r){this.shared.flags=r}get position(){return this.shared.position}set position(r){this.shared.position=r}},FSNode:class{node_ops={};stream_ops={};readMode=365;writeMode=146;mounted=null;constructor(r,a,l,u){r||(r=this),this.parent=r,this.mount=r.mount,this.id=M.nextInode++,this.name=a,this.mode=l,this.rdev=u,this.atime=this.mtime=this.ctime=Date.now()}get read(){return(this.mode&this.readMode)===this.readMode}set read(r){r?this.mode|=this.readMode:this.mode&=~this.readMode}get write(){return(this.mode&this.writeMode)===this.writeMode}set write(r){r?this.mode|=this.writeMode:this.mode&=~this.writeMode}get isFolder(){return M.isDir(this.mode)}get isDevice(){return M.isChrdev(this.mode)}},lookupPath(r,a={}){if(!r)throw new M.ErrnoError(44);a.follow_mount??=!0,$.isAbs(r)||(r=M.cwd()+"/"+r);e:for(var l=0;l<40;l++){for(var u=r.split("/").filter(X=>!!X),p=M.root,_="/",E=0;E<u.length;E++){var A=E===u.length-1;if(A&&a.parent)break;if(u[E]!=="."){if(u[E]===".."){if(_=$.dirname(_),M.isRoot(p)){r=_+"/"+u.slice(E+1).join("/");continue e}else p=p.parent;continue}_=$.join2(_,u[E]);try{p=M.lookupNode(p,u[E])}catch(X){if(X?.errno===44&&A&&a.noent_okay)return{path:_};throw X}if(M.isMountpoint(p)&&(!A||a.follow_mount)&&(p=p.mounted.root),M.isLink(p.mode)&&(!A||a.follow)){if(!p.node_ops.readlink)throw new M.ErrnoError(52);var F=p.node_ops.readlink(p);$.isAbs(F)||(F=$.dirname(_)+"/"+F),r=F+"/"+u.slice(E+1).join("/");continue e}}}return{path:_,node:p}}throw new M.ErrnoError(32)},getPath(r){for(var a;;){if(M.isRoot(r)){var l=r.mount.mountpoint;return a?l[l.length-1]!=="/"?`${l}/${a}`:l+a:l}a=a?`${r.name}/${a}`:r.name,r=r.parent}},hashName(r,a){for(var l=0,u=0;u<a.length;u++)l=(l<<5)-l+a.charCodeAt(u)|0;return(r+l>>>0)%M.nameTable.length},hashAddNode(r){var a=M.hashName(r.parent.id,r.name);r.name_next=M.nameTable[a],M.nameTable[a]=r},hashRemoveNode(r){var a=M.hashName(r.parent.id,r.name);if(M.nameTable[a]===r)M.nameTable[a]=r.name_next;else for(var l=M.nameTable[a];l;){if(l.name_next===r){l.name_next=r.name_next;break}l=l.name_next}},lookupNode(r,a){var l=M.mayLookup(r);if(l)throw new M.ErrnoError(l);for(var u=M.hashName(r.id,a),p=M.nameTable[u];p;p=p.name_next){var _=p.name;if(p.parent.id===r.id&&_===a)return p}return M.lookup(r,a)},createNode(r,a,l,u){G(typeof r=="object");var p=new M.FSNode(r,a,l,u);return M.hashAddNode(p),p},destroyNode(r){M.hashRemoveNode(r)},isRoot(r){return r===r.parent},isMountpoint(r){return!!r.mounted},isFile(r){return(r&61440)===32768},isDir(r){return(r&61440)===16384},isLink(r){return(r&61440)===40960},isChrdev(r){return(r&61440)===8192},isBlkdev(r){return(r&61440)===24576},isFIFO(r){return(r&61440)===4096},isSocket(r){return(r&49152)===49152},flagsToPermissionString(r){var a=["r","w","rw"][r&3];return r&512&&(a+="w"),a},nodePermissions(r,a){return M.ignorePermissions?0:a.includes("r")&&!(r.mode&292)||a.includes("w")&&!(r.mode&146)||a.includes("x")&&!(r.mode&73)?2:0},mayLookup(r){if(!M.isDir(r.mode))return 54;var a=M.nodePermissions(r,"x");return a||(r.node_ops.lookup?0:2)},mayCreate(r,a){if(!M.isDir(r.mode))return 54;try{var l=M.lookupNode(r,a);return 20}catch{}return M.nodePermissions(r,"wx")},mayDelete(r,a,l){var u;try{u=M.lookupNode(r,a)}catch(_){return _.errno}var p=M.nodePermissions(r,"wx");if(p)return p;if(l){if(!M.isDir(u.mode))return 54;if(M.isRoot(u)||M.getPath(u)===M.cwd())return 10}else if(M.isDir(u.mode))return 31;return 0},mayOpen(r,a){return r?M.isLink(r.mode)?32:M.isDir(r.mode)&&(M.flagsToPermissionString(a)!=="r"||a&576)?31:M.nodePermissions(r,M.flagsToPermissionString(a)):44},checkOpExists(r,a){if(!r)throw new M.ErrnoError(a);return r},MAX_OPEN_FDS:4096,nextfd(){for(var r=0;r<=M.MAX_OPEN_FDS;r++)if(!M.streams[r])return r;throw new M.ErrnoError(33)},getStreamChecked(r){var a=M.getStream(r);if(!a)throw new M.ErrnoError(8);return a},getStream:r=>M.streams[r],createStream(r,a=-1){return G(a>=-1),r=Object.assign(new M.FSStream,r),a==-1&&(a=M.nextfd()),r.fd=a,M.streams[a]=r,r},closeStream(r){M.streams[r]=null},dupStream(r,a=-1){var l=M.createStream(r,a);return l.stream_ops?.dup?.(l),l},doSetAttr(r,a,l){var u=r?.stream_ops.setattr,p=u?r:a;u??=a.node_ops.setattr,M.checkOpExists(u,63),u(p,l)},chrdev_stream_ops:{open(r){var a=M.getDevice(r.node.rdev);r.stream_ops=a.stream_ops,r.stream_ops.open?.(r)},llseek(){throw new M.ErrnoError(70)}},major:r=>r>>8,minor:r=>r&255,makedev:(r,a)=>r<<8|a,registerDevice(r,a){M.devices[r]={stream_ops:a}},getDevice:r=>M.devices[r],getMounts(r){for(var a=[],l=[r];l.length;){var u=l.pop();a.push(u),l.push(...u.mounts)}return a},syncfs(r,a){typeof r=="function"&&(a=r,r=!1),M.syncFSRequests++,M.syncFSRequests>1&&P(`warning: ${M.syncFSRequests} FS.syncfs operations in flight at once, probably just doing extra work`);var l=M.getMounts(M.root.mount),u=0;function p(E){return G(M.syncFSRequests>0),M.syncFSRequests--,a(E)}function _(E){if(E)return _.errored?void 0:(_.errored=!0,p(E));++u>=l.length&&p(null)}l.forEach(E=>{if(!E.type.syncfs)return _(null);E.type.syncfs(E,r,_)})},mount(r,a,l){if(typeof r=="string")throw r;var u=l==="/",p=!l,_;if(u&&M.root)throw new M.ErrnoError(10);if(!u&&!p){var E=M.lookupPath(l,{follow_mount:!1});if(l=E.path,_=E.node,M.isMountpoint(_))throw new M.ErrnoError(10);if(!M.isDir(_.mode))throw new M.ErrnoError(54)}var A={type:r,opts:a,mountpoint:l,mounts:[]},F=r.mount(A);return F.mount=A,A.root=F,u?M.root=F:_&&(_.mounted=A,_.mount&&_.mount.mounts.push(A)),F},unmount(r){var a=M.lookupPath(r,{follow_mount:!1});if(!M.isMountpoint(a.node))throw new M.ErrnoError(28);var l=a.node,u=l.mounted,p=M.getMounts(u);Object.keys(M.nameTable).forEach(E=>{for(var A=M.nameTable[E];A;){var F=A.name_next;p.includes(A.mount)&&M.destroyNode(A),A=F}}),l.mounted=null;var _=l.mount.mounts.indexOf(u);G(_!==-1),l.mount.mounts.splice(_,1)},lookup(r,a){return r.node_ops.lookup(r,a)},mknod(r,a,l){var u=M.lookupPath(r,{parent:!0}),p=u.node,_=$.basename(r);if(!_)throw new M.ErrnoError(28);if(_==="."||_==="..")throw new M.ErrnoError(20);var E=M.mayCreate(p,_);if(E)throw new M.ErrnoError(E);if(!p.node_ops.mknod)throw new M.ErrnoError(63);return p.node_ops.mknod(p,_,a,l)},statfs(r){return M.statfsNode(M.lookupPath(r,{follow:!0}).node)},statfsStream(r){return M.statfsNode(r.node)},statfsNode(r){var a={bsize:4096,frsize:4096,blocks:1e6,bfree:5e5,bavail:5e5,files:M.nextInode,ffree:M.nextInode-1,fsid:42,flags:2,namelen:255};return r.node_ops.statfs&&Object.assign(a,r.node_ops.statfs(r.mount.opts.root)),a},create(r,a=438){return a&=4095,a|=32768,M.mknod(r,a,0)},mkdir(r,a=511){return a&=1023,a|=16384,M.mknod(r,a,0)},mkdirTree(r,a){var l=r.split("/"),u="";for(var p of l)if(p){(u||$.isAbs(r))&&(u+="/"),u+=p;try{M.mkdir(u,a)}catch(_){if(_.errno!=20)throw _}}},mkdev(r,a,l){return typeof l>"u"&&(l=a,a=438),a|=8192,M.mknod(r,a,l)},symlink(r,a){if(!Te.resolve(r))throw new M.ErrnoError(44);var l=M.lookupPath(a,{parent:!0}),u=l.node;if(!u)throw new M.ErrnoError(44);var p=$.basename(a),_=M.mayCreate(u,p);if(_)throw new M.ErrnoError(_);if(!u.node_ops.symlink)throw new M.ErrnoError(63);return u.node_ops.symlink(u,p,r)},rename(r,a){var l=$.dirname(r),u=$.dirname(a),p=$.basename(r),_=$.basename(a),E,A,F;if(E=M.lookupPath(r,{parent:!0}),A=E.node,E=M.lookupPath(a,{parent:!0}),F=E.node,!A||!F)throw new M.ErrnoError(44);if(A.mount!==F.mount)throw new M.ErrnoError(75);var X=M.lookupNode(A,p),K=Te.relative(r,u);if(K.charAt(0)!==".")throw new M.ErrnoError(28);if(K=Te.relative(a,l),K.charAt(0)!==".")throw new M.ErrnoError(55);var oe;try{oe=M.lookupNode(F,_)}catch{}if(X!==oe){var fe=M.isDir(X.mode),ce=M.mayDelete(A,p,fe);if(ce)throw new M.ErrnoError(ce);if(ce=oe?M.mayDelete(F,_,fe):M.mayCreate(F,_),ce)throw new M.ErrnoError(ce);if(!A.node_ops.rename)throw new M.ErrnoError(63);if(M.isMountpoint(X)||oe&&M.isMountpoint(oe))throw new M.ErrnoError(10);if(F!==A&&(ce=M.nodePermissions(A,"w"),ce))throw new M.ErrnoError(ce);M.hashRemoveNode(X);try{A.node_ops.rename(X,F,_),X.parent=F}catch(_e){throw _e}finally{M.hashAddNode(X)}}},rmdir(r){var a=M.lookupPath(r,{parent:!0}),l=a.node,u=$.basename(r),p=M.lookupNode(l,u),_=M.mayDelete(l,u,!0);if(_)throw new M.ErrnoError(_);if(!l.node_ops.rmdir)throw new M.ErrnoError(63);if(M.isMountpoint(p))throw new M.ErrnoError(10);l.node_ops.rmdir(l,u),M.destroyNode(p)},readdir(r){var a=M.lookupPath(r,{follow:!0}),l=a.node,u=M.checkOpExists(l.node_ops.readdir,54);return u(l)},unlink(r){var a=M.lookupPath(r,{parent:!0}),l=a.node;if(!l)throw new M.ErrnoError(44);var u=$.basename(r),p=M.lookupNode(l,u),_=M.mayDelete(l,u,!1);if(_)throw new M.ErrnoError(_);if(!l.node_ops.unlink)throw new M.ErrnoError(63);if(M.isMountpoint(p))throw new M.ErrnoError(10);l.node_ops.unlink(l,u),M.destroyNode(p)},readlink(r){var a=M.lookupPath(r),l=a.node;if(!l)throw new M.ErrnoError(44);if(!l.node_ops.readlink)throw new M.ErrnoError(28);return l.node_ops.readlink(l)},stat(r,a){var l=M.lookupPath(r,{follow:!a}),u=l.node,p=M.checkOpExists(u.node_ops.getattr,63);return p(u)},fstat(r){var a=M.getStreamChecked(r),l=a.node,u=a.stream_ops.getattr,p=u?a:l;return u??=l.node_ops.getattr,M.checkOpExists(u,63),u(p)},lstat(r){return M.stat(r,!0)},doChmod(r,a,l,u){M.doSetAttr(r,a,{mode:l&4095|a.mode&-4096,ctime:Date.now(),dontFollow:u})},chmod(r,a,l){var u;if(typeof r=="string"){var p=M.lookupPath(r,{follow:!l});u=p.node}else u=r;M.doChmod(null,u,a,l)},lchmod(r,a){M.chmod(r,a,!0)},fchmod(r,a){var l=M.getStreamChecked(r);M.doChmod(l,l.node,a,!1)},doChown(r,a,l){M.doSetAttr(r,a,{timestamp:Date.now(),dontFollow:l})},chown(r,a,l,u){var p;if(typeof r=="string"){var _=M.lookupPath(r,{follow:!u});p=_.node}else p=r;M.doChown(null,p,u)},lchown(r,a,l){M.chown(r,a,l,!0)},fchown(r,a,l){var u=M.getStreamChecked(r);M.doChown(u,u.node,!1)},doTruncate(r,a,l){if(M.isDir(a.mode))throw new M.ErrnoError(31);if(!M.isFile(a.mode))throw new M.ErrnoError(28);var u=M.nodePermissions(a,"w");if(u)throw new M.ErrnoError(u);M.doSetAttr(r,a,{size:l,timestamp:Date.now()})},truncate(r,a){if(a<0)throw new M.ErrnoError(28);var l;if(typeof r=="string"){var u=M.lookupPath(r,{follow:!0});l=u.node}else l=r;M.doTruncate(null,l,a)},ftruncate(r,a){var l=M.getStreamChecked(r);if(a<0||(l.flags&2097155)===0)throw new M.ErrnoError(28);M.doTruncate(l,l.node,a)},utime(r,a,l){var u=M.lookupPath(r,{follow:!0}),p=u.node,_=M.checkOpExists(p.node_ops.setattr,63);_(p,{atime:a,mtime:l})},open(r,a,l=438){if(r==="")throw new M.ErrnoError(44);a=typeof a=="string"?nn(a):a,a&64?l=l&4095|32768:l=0;var u,p;if(typeof r=="object")u=r;else{p=r.endsWith("/");var _=M.lookupPath(r,{follow:!(a&131072),noent_okay:!0});u=_.node,r=_.path}var E=!1;if(a&64)if(u){if(a&128)throw new M.ErrnoError(20)}else{if(p)throw new M.ErrnoError(31);u=M.mknod(r,l|511,0),E=!0}if(!u)throw new M.ErrnoError(44);if(M.isChrdev(u.mode)&&(a&=-513),a&65536&&!M.isDir(u.mode))throw new M.ErrnoError(54);if(!E){var A=M.mayOpen(u,a);if(A)throw new M.ErrnoError(A)}a&512&&!E&&M.truncate(u,0),a&=-131713;var F=M.createStream({node:u,path:M.getPath(u),flags:a,seekable:!0,position:0,stream_ops:u.stream_ops,ungotten:[],error:!1});return F.stream_ops.open&&F.stream_ops.open(F),E&&M.chmod(u,l&511),t.logReadFiles&&!(a&1)&&(r in M.readFiles||(M.readFiles[r]=1)),F},close(r){if(M.isClosed(r))throw new M.ErrnoError(8);r.getdents&&(r.getdents=null);try{r.stream_ops.close&&r.stream_ops.close(r)}catch(a){throw a}finally{M.closeStream(r.fd)}r.fd=null},isClosed(r){return r.fd===null},llseek(r,a,l){if(M.isClosed(r))throw new M.ErrnoError(8);if(!r.seekable||!r.stream_ops.llseek)throw new M.ErrnoError(70);if(l!=0&&l!=1&&l!=2)throw new M.ErrnoError(28);return r.position=r.stream_ops.llseek(r,a,l),r.ungotten=[],r.position},read(r,a,l,u,p){if(G(l>=0),u<0||p<0)throw new M.ErrnoError(28);if(M.isClosed(r))throw new M.ErrnoError(8);if((r.flags&2097155)===1)throw new M.ErrnoError(8);if(M.isDir(r.node.mode))throw new M.ErrnoError(31);if(!r.stream_ops.read)throw new M.ErrnoError(28);var _=typeof p<"u";if(!_)p=r.position;else if(!r.seekable)throw new M.ErrnoError(70);var E=r.stream_ops.read(r,a,l,u,p);return _||(r.position+=E),E},write(r,a,l,u,p,_){if(G(l>=0),u<0||p<0)throw new M.ErrnoError(28);if(M.isClosed(r))throw new M.ErrnoError(8);if((r.flags&2097155)===0)throw new M.ErrnoError(8);if(M.isDir(r.node.mode))throw new M.ErrnoError(31);if(!r.stream_ops.write)throw new M.ErrnoError(28);r.seekable&&r.flags&1024&&M.llseek(r,0,2);var E=typeof p<"u";if(!E)p=r.position;else if(!r.seekable)throw new M.ErrnoError(70);var A=r.stream_ops.write(r,a,l,u,p,_);return E||(r.position+=A),A},mmap(r,a,l,u,p){if((u&2)!==0&&(p&2)===0&&(r.flags&2097155)!==2)throw new M.ErrnoError(2);if((r.flags&2097155)===1)throw new M.ErrnoError(2);if(!r.stream_ops.mmap)throw new M.ErrnoError(43);if(!a)throw new M.ErrnoError(28);return r.stream_ops.mmap(r,a,l,u,p)},msync(r,a,l,u,p){return G(l>=0),r.stream_ops.msync?r.stream_ops.msync(r,a,l,u,p):0},ioctl(r,a,l){if(!r.stream_ops.ioctl)throw new M.ErrnoError(59);return r.stream_ops.ioctl(r,a,l)},readFile(r,a={}){if(a.flags=a.flags||0,a.encoding=a.encoding||"binary",a.encoding!=="utf8"&&a.encoding!=="binary")throw new Error(`Invalid encoding type "${a.encoding}"`);var l=M.open(r,a.flags),u=M.stat(r),p=u.size,_=new Uint8Array(p);return M.read(l,_,0,p,0),a.encoding==="utf8"&&(_=li(_)),M.close(l),_},writeFile(r,a,l={}){l.flags=l.flags||577;var u=M.open(r,l.flags,l.mode);if(typeof a=="string"&&(a=new Uint8Array(ft(a,!0))),ArrayBuffer.isView(a))M.write(u,a,0,a.byteLength,void 0,l.canOwn);else throw new Error("Unsupported data type");M.close(u)},cwd:()=>M.currentPath,chdir(r){var a=M.lookupPath(r,{follow:!0});if(a.node===null)throw new M.ErrnoError(44);if(!M.isDir(a.node.mode))throw new M.ErrnoError(54);var l=M.nodePermissions(a.node,"x");if(l)throw new M.ErrnoError(l);M.currentPath=a.path},createDefaultDirectories(){M.mkdir("/tmp"),M.mkdir("/home"),M.mkdir("/home/web_user")},createDefaultDevices(){M.mkdir("/dev"),M.registerDevice(M.makedev(1,3),{read:()=>0,write:(u,p,_,E,A)=>E,llseek:()=>0}),M.mkdev("/dev/null",M.makedev(1,3)),st.register(M.makedev(5,0),st.default_tty_ops),st.register(M.makedev(6,0),st.default_tty1_ops),M.mkdev("/dev/tty",M.makedev(5,0)),M.mkdev("/dev/tty1",M.makedev(6,0));var r=new Uint8Array(1024),a=0,l=()=>(a===0&&(ze(r),a=r.byteLength),r[--a]);M.createDevice("/dev","random",l),M.createDevice("/dev","urandom",l),M.mkdir("/dev/shm"),M.mkdir("/dev/shm/tmp")},createSpecialDirectories(){M.mkdir("/proc");var r=M.mkdir("/proc/self");M.mkdir("/proc/self/fd"),M.mount({mount(){var a=M.createNode(r,"fd",16895,73);return a.stream_ops={llseek:ke.stream_ops.llseek},a.node_ops={lookup(l,u){var p=+u,_=M.getStreamChecked(p),E={parent:null,mount:{mountpoint:"fake"},node_ops:{readlink:()=>_.path},id:p+1};return E.parent=E,E},readdir(){return Array.from(M.streams.entries()).filter(([l,u])=>u).map(([l,u])=>l.toString())}},a}},{},"/proc/self/fd")},createStandardStreams(r,a,l){r?M.createDevice("/dev","stdin",r):M.symlink("/dev/tty","/dev/stdin"),a?M.createDevice("/dev","stdout",null,a):M.symlink("/dev/tty","/dev/stdout"),l?M.createDevice("/dev","stderr",null,l):M.symlink("/dev/tty1","/dev/stderr");var u=M.open("/dev/stdin",0),p=M.open("/dev/stdout",1),_=M.open("/dev/stderr",1);G(u.fd===0,`invalid handle for stdin (${u.fd})`),G(p.fd===1,`invalid handle for stdout (${p.fd})`),G(_.fd===2,`invalid handle for stderr (${_.fd})`)},staticInit(){M.nameTable=new Array(4096),M.mount(ke,{},"/"),M.createDefaultDirectories(),M.createDefaultDevices(),M.createSpecialDirectories(),M.filesystems={MEMFS:ke}},init(r,a,l){G(!M.initialized,"FS.init was previously called. If you want to initialize later with custom parameters, remove any earlier calls (note that one is automatically added to the generated code)"),M.initialized=!0,r??=t.stdin,a??=t.stdout,l??=t.stderr,M.createStandardStreams(r,a,l)},quit(){M.initialized=!1,yl(0);for(var r of M.streams)r&&M.close(r)},findObject(r,a){var l=M.analyzePath(r,a);return l.exists?l.object:null},analyzePath(r,a){try{var l=M.lookupPath(r,{follow:!a});r=l.path}catch{}var u={isRoot:!1,exists:!1,error:0,name:null,path:null,object:null,parentExists:!1,parentPath:null,parentObject:null};try{var l=M.lookupPath(r,{parent:!0});u.parentExists=!0,u.parentPath=l.path,u.parentObject=l.node,u.name=$.basename(r),l=M.lookupPath(r,{follow:!a}),u.exists=!0,u.path=l.path,u.object=l.node,u.name=l.node.name,u.isRoot=l.path==="/"}catch(p){u.error=p.errno}return u},createPath(r,a,l,u){r=typeof r=="string"?r:M.getPath(r);for(var p=a.split("/").reverse();p.length;){var _=p.pop();if(_){var E=$.join2(r,_);try{M.mkdir(E)}catch(A){if(A.errno!=20)throw A}r=E}}return E},createFile(r,a,l,u,p){var _=$.join2(typeof r=="string"?r:M.getPath(r),a),E=Mi(u,p);return M.create(_,E)},createDataFile(r,a,l,u,p,_){var E=a;r&&(r=typeof r=="string"?r:M.getPath(r),E=a?$.join2(r,a):r);var A=Mi(u,p),F=M.create(E,A);if(l){if(typeof l=="string"){for(var X=new Array(l.length),K=0,oe=l.length;K<oe;++K)X[K]=l.charCodeAt(K);l=X}M.chmod(F,A|146);var fe=M.open(F,577);M.write(fe,l,0,l.length,0,_),M.close(fe),M.chmod(F,A)}},createDevice(r,a,l,u){var p=$.join2(typeof r=="string"?r:M.getPath(r),a),_=Mi(!!l,!!u);M.createDevice.major??=64;var E=M.makedev(M.createDevice.major++,0);return M.registerDevice(E,{open(A){A.seekable=!1},close(A){u?.buffer?.length&&u(10)},read(A,F,X,K,oe){for(var fe=0,ce=0;ce<K;ce++){var _e;try{_e=l()}catch{throw new M.ErrnoError(29)}if(_e===void 0&&fe===0)throw new M.ErrnoError(6);if(_e==null)break;fe++,F[X+ce]=_e}return fe&&(A.node.atime=Date.now()),fe},write(A,F,X,K,oe){for(var fe=0;fe<K;fe++)try{u(F[X+fe])}catch{throw new M.ErrnoError(29)}return K&&(A.node.mtime=A.node.ctime=Date.now()),fe}}),M.mkdev(p,_,E)},forceLoadFile(r){if(r.isDevice||r.isFolder||r.link||r.contents)return!0;if(typeof XMLHttpRequest<"u")throw new Error("Lazy loading should have been performed (contents set) in createLazyFile, but it was not. Lazy loading only works in web workers. Use --embed-file or --preload-file in emcc on the main thread.");try{r.contents=R(r.url),r.usedBytes=r.contents.length}catch{throw new M.ErrnoError(29)}},createLazyFile(r,a,l,u,p){class _{lengthKnown=!1;chunks=[];get(ce){if(!(ce>this.length-1||ce<0)){var _e=ce%this.chunkSize,Ze=ce/this.chunkSize|0;return this.getter(Ze)[_e]}}setDataGetter(ce){this.getter=ce}cacheLength(){var ce=new XMLHttpRequest;if(ce.open("HEAD",l,!1),ce.send(null),!(ce.status>=200&&ce.status<300||ce.status===304))throw new Error("Couldn't load "+l+". Status: "+ce.status);var _e=Number(ce.getResponseHeader("Content-length")),Ze,vt=(Ze=ce.getResponseHeader("Accept-Ranges"))&&Ze==="bytes",pt=(Ze=ce.getResponseHeader("Content-Encoding"))&&Ze==="gzip",Ut=1024*1024;vt||(Ut=_e);var bt=(Jt,pn)=>{if(Jt>pn)throw new Error("invalid range ("+Jt+", "+pn+") or no bytes requested!");if(pn>_e-1)throw new Error("only "+_e+" bytes available! programmer error!");var Ft=new XMLHttpRequest;if(Ft.open("GET",l,!1),_e!==Ut&&Ft.setRequestHeader("Range","bytes="+Jt+"-"+pn),Ft.responseType="arraybuffer",Ft.overrideMimeType&&Ft.overrideMimeType("text/plain; charset=x-user-defined"),Ft.send(null),!(Ft.status>=200&&Ft.status<300||Ft.status===304))throw new Error("Couldn't load "+l+". Status: "+Ft.status);return Ft.response!==void 0?new Uint8Array(Ft.response||[]):ft(Ft.responseText||"",!0)},cn=this;cn.setDataGetter(Jt=>{var pn=Jt*Ut,Ft=(Jt+1)*Ut-1;if(Ft=Math.min(Ft,_e-1),typeof cn.chunks[Jt]>"u"&&(cn.chunks[Jt]=bt(pn,Ft)),typeof cn.chunks[Jt]>"u")throw new Error("doXHR failed!");return cn.chunks[Jt]}),(pt||!_e)&&(Ut=_e=1,_e=this.getter(0).length,Ut=_e,O("LazyFiles on gzip forces download of the whole file when length is accessed")),this._length=_e,this._chunkSize=Ut,this.lengthKnown=!0}get length(){return this.lengthKnown||this.cacheLength(),this._length}get chunkSize(){return this.lengthKnown||this.cacheLength(),this._chunkSize}}if(typeof XMLHttpRequest<"u"){if(!s)throw"Cannot do synchronous binary XHRs outside webworkers in modern browsers. Use --embed-file or --preload-file in emcc";var E=new _,A={isDevice:!1,contents:E}}else var A={isDevice:!1,url:l};var F=M.createFile(r,a,A,u,p);A.contents?F.contents=A.contents:A.url&&(F.contents=null,F.url=A.url),Object.defineProperties(F,{usedBytes:{get:function(){return this.contents.length}}});var X={},K=Object.keys(F.stream_ops);K.forEach(fe=>{var ce=F.stream_ops[fe];X[fe]=(..._e)=>(M.forceLoadFile(F),ce(..._e))});function oe(fe,ce,_e,Ze,vt){var pt=fe.node.contents;if(vt>=pt.length)return 0;var Ut=Math.min(pt.length-vt,Ze);if(G(Ut>=0),pt.slice)for(var bt=0;bt<Ut;bt++)ce[_e+bt]=pt[vt+bt];else for(var bt=0;bt<Ut;bt++)ce[_e+bt]=pt.get(vt+bt);return Ut}return X.read=(fe,ce,_e,Ze,vt)=>(M.forceLoadFile(F),oe(fe,ce,_e,Ze,vt)),X.mmap=(fe,ce,_e,Ze,vt)=>{M.forceLoadFile(F);var pt=Ht(ce);if(!pt)throw new M.ErrnoError(48);return oe(fe,ht,pt,ce,_e),{ptr:pt,allocated:!0}},F.stream_ops=X,F},absolutePath(){pe("FS.absolutePath has been removed; use PATH_FS.resolve instead")},createFolder(){pe("FS.createFolder has been removed; use FS.mkdir instead")},createLink(){pe("FS.createLink has been removed; use FS.symlink instead")},joinPath(){pe("FS.joinPath has been removed; use PATH.join instead")},mmapAlloc(){pe("FS.mmapAlloc has been replaced by the top level function mmapAlloc")},standardizePath(){pe("FS.standardizePath has been removed; use PATH.normalize instead")}},ct={DEFAULT_POLLMASK:5,calculateAt(r,a,l){if($.isAbs(a))return a;var u;if(r===-100)u=M.cwd();else{var p=ct.getStreamFromFD(r);u=p.path}if(a.length==0){if(!l)throw new M.ErrnoError(44);return u}return u+"/"+a},writeStat(r,a){Le[r>>2]=a.dev,Le[r+4>>2]=a.mode,$e[r+8>>2]=a.nlink,Le[r+12>>2]=a.uid,Le[r+16>>2]=a.gid,Le[r+20>>2]=a.rdev,W[r+24>>3]=BigInt(a.size),Le[r+32>>2]=4096,Le[r+36>>2]=a.blocks;var l=a.atime.getTime(),u=a.mtime.getTime(),p=a.ctime.getTime();return W[r+40>>3]=BigInt(Math.floor(l/1e3)),$e[r+48>>2]=l%1e3*1e3*1e3,W[r+56>>3]=BigInt(Math.floor(u/1e3)),$e[r+64>>2]=u%1e3*1e3*1e3,W[r+72>>3]=BigInt(Math.floor(p/1e3)),$e[r+80>>2]=p%1e3*1e3*1e3,W[r+88>>3]=BigInt(a.ino),0},writeStatFs(r,a){Le[r+4>>2]=a.bsize,Le[r+40>>2]=a.bsize,Le[r+8>>2]=a.blocks,Le[r+12>>2]=a.bfree,Le[r+16>>2]=a.bavail,Le[r+20>>2]=a.files,Le[r+24>>2]=a.ffree,Le[r+28>>2]=a.fsid,Le[r+44>>2]=a.flags,Le[r+36>>2]=a.namelen},doMsync(r,a,l,u,p){if(!M.isFile(a.node.mode))throw new M.ErrnoError(43);if(u&2)return 0;var _=Rt.slice(r,r+l);M.msync(a,_,p,l,u)},getStreamFromFD(r){var a=M.getStreamChecked(r);return a},varargs:void 0,getStr(r){var a=on(r);return a}};function Mn(r,a,l){try{var u=ct.getStreamFromFD(r);if(G(!l),u.fd===a)return-28;if(a<0||a>=M.MAX_OPEN_FDS)return-8;var p=M.getStream(a);return p&&M.close(p),M.dupStream(u,a).fd}catch(_){if(typeof M>"u"||_.name!=="ErrnoError")throw _;return-_.errno}}var Dt=()=>{G(ct.varargs!=null);var r=Le[+ct.varargs>>2];return ct.varargs+=4,r},Bt=Dt;function Dn(r,a,l){ct.varargs=l;try{var u=ct.getStreamFromFD(r);switch(a){case 0:{var p=Dt();if(p<0)return-28;for(;M.streams[p];)p++;var _;return _=M.dupStream(u,p),_.fd}case 1:case 2:return 0;case 3:return u.flags;case 4:{var p=Dt();return u.flags|=p,0}case 12:{var p=Bt(),E=0;return St[p+E>>1]=2,0}case 13:case 14:return 0}return-28}catch(A){if(typeof M>"u"||A.name!=="ErrnoError")throw A;return-A.errno}}function ks(r,a){try{return ct.writeStat(a,M.fstat(r))}catch(l){if(typeof M>"u"||l.name!=="ErrnoError")throw l;return-l.errno}}function Dd(r,a,l){ct.varargs=l;try{var u=ct.getStreamFromFD(r);switch(a){case 21509:return u.tty?0:-59;case 21505:{if(!u.tty)return-59;if(u.tty.ops.ioctl_tcgets){var p=u.tty.ops.ioctl_tcgets(u),_=Bt();Le[_>>2]=p.c_iflag||0,Le[_+4>>2]=p.c_oflag||0,Le[_+8>>2]=p.c_cflag||0,Le[_+12>>2]=p.c_lflag||0;for(var E=0;E<32;E++)ht[_+E+17]=p.c_cc[E]||0;return 0}return 0}case 21510:case 21511:case 21512:return u.tty?0:-59;case 21506:case 21507:case 21508:{if(!u.tty)return-59;if(u.tty.ops.ioctl_tcsets){for(var _=Bt(),A=Le[_>>2],F=Le[_+4>>2],X=Le[_+8>>2],K=Le[_+12>>2],oe=[],E=0;E<32;E++)oe.push(ht[_+E+17]);return u.tty.ops.ioctl_tcsets(u.tty,a,{c_iflag:A,c_oflag:F,c_cflag:X,c_lflag:K,c_cc:oe})}return 0}case 21519:{if(!u.tty)return-59;var _=Bt();return Le[_>>2]=0,0}case 21520:return u.tty?-28:-59;case 21531:{var _=Bt();return M.ioctl(u,a,_)}case 21523:{if(!u.tty)return-59;if(u.tty.ops.ioctl_tiocgwinsz){var fe=u.tty.ops.ioctl_tiocgwinsz(u.tty),_=Bt();St[_>>1]=fe[0],St[_+2>>1]=fe[1]}return 0}case 21524:return u.tty?0:-59;case 21515:return u.tty?0:-59;default:return-28}}catch(ce){if(typeof M>"u"||ce.name!=="ErrnoError")throw ce;return-ce.errno}}function Fd(r,a){try{return r=ct.getStr(r),ct.writeStat(a,M.lstat(r))}catch(l){if(typeof M>"u"||l.name!=="ErrnoError")throw l;return-l.errno}}function Nd(r,a,l,u){try{a=ct.getStr(a);var p=u&256,_=u&4096;return u=u&-6401,G(!u,`unknown flags in __syscall_newfstatat: ${u}`),a=ct.calculateAt(r,a,_),ct.writeStat(l,p?M.lstat(a):M.stat(a))}catch(E){if(typeof M>"u"||E.name!=="ErrnoError")throw E;return-E.errno}}function Ud(r,a,l,u){ct.varargs=u;try{a=ct.getStr(a),a=ct.calculateAt(r,a);var p=u?Dt():0;return M.open(a,l,p).fd}catch(_){if(typeof M>"u"||_.name!=="ErrnoError")throw _;return-_.errno}}function Od(r,a){try{return r=ct.getStr(r),ct.writeStat(a,M.stat(r))}catch(l){if(typeof M>"u"||l.name!=="ErrnoError")throw l;return-l.errno}}var Bd=()=>pe("native code called abort()"),Yt=r=>{for(var a="";;){var l=Rt[r++];if(!l)return a;a+=String.fromCharCode(l)}},lr={},zi={},zs={},Xr=class extends Error{constructor(a){super(a),this.name="BindingError"}},_t=r=>{throw new Xr(r)};function kd(r,a,l={}){var u=a.name;if(r||_t(`type "${u}" must have a positive integer typeid pointer`),zi.hasOwnProperty(r)){if(l.ignoreDuplicateRegistrations)return;_t(`Cannot register type '${u}' twice`)}if(zi[r]=a,delete zs[r],lr.hasOwnProperty(r)){var p=lr[r];delete lr[r],p.forEach(_=>_())}}function Rn(r,a,l={}){if(a.argPackAdvance===void 0)throw new TypeError("registerType registeredInstance requires argPackAdvance");return kd(r,a,l)}var qc=(r,a,l)=>{switch(a){case 1:return l?u=>ht[u]:u=>Rt[u];case 2:return l?u=>St[u>>1]:u=>Qt[u>>1];case 4:return l?u=>Le[u>>2]:u=>$e[u>>2];case 8:return l?u=>W[u>>3]:u=>fn[u>>3];default:throw new TypeError(`invalid integer width (${a}): ${r}`)}},Gi=r=>{if(r===null)return"null";var a=typeof r;return a==="object"||a==="array"||a==="function"?r.toString():""+r},Yc=(r,a,l,u)=>{if(a<l||a>u)throw new TypeError(`Passing a number "${Gi(a)}" from JS side to C/C++ side to an argument of type "${r}", which is outside the valid range [${l}, ${u}]!`)},zd=(r,a,l,u,p)=>{a=Yt(a);let _=u===0n,E=A=>A;if(_){let A=l*8;E=F=>BigInt.asUintN(A,F),p=E(p)}Rn(r,{name:a,fromWireType:E,toWireType:(A,F)=>{if(typeof F=="number")F=BigInt(F);else if(typeof F!="bigint")throw new TypeError(`Cannot convert "${Gi(F)}" to ${this.name}`);return Yc(a,F,u,p),F},argPackAdvance:Yn,readValueFromPointer:qc(a,l,!_),destructorFunction:null})},Yn=8,Gd=(r,a,l,u)=>{a=Yt(a),Rn(r,{name:a,fromWireType:function(p){return!!p},toWireType:function(p,_){return _?l:u},argPackAdvance:Yn,readValueFromPointer:function(p){return this.fromWireType(Rt[p])},destructorFunction:null})},Vd=r=>({count:r.count,deleteScheduled:r.deleteScheduled,preservePointerOnDelete:r.preservePointerOnDelete,ptr:r.ptr,ptrType:r.ptrType,smartPtr:r.smartPtr,smartPtrType:r.smartPtrType}),ll=r=>{function a(l){return l.$$.ptrType.registeredClass.name}_t(a(r)+" instance already deleted")},cl=!1,jc=r=>{},Hd=r=>{r.smartPtr?r.smartPtrType.rawDestructor(r.smartPtr):r.ptrType.registeredClass.rawDestructor(r.ptr)},Jc=r=>{r.count.value-=1;var a=r.count.value===0;a&&Hd(r)},Zc=(r,a,l)=>{if(a===l)return r;if(l.baseClass===void 0)return null;var u=Zc(r,a,l.baseClass);return u===null?null:l.downcast(u)},Kc={},Wd={},Xd=(r,a)=>{for(a===void 0&&_t("ptr should not be undefined");r.baseClass;)a=r.upcast(a),r=r.baseClass;return a},$d=(r,a)=>(a=Xd(r,a),Wd[a]),qd=class extends Error{constructor(a){super(a),this.name="InternalError"}},Gs=r=>{throw new qd(r)},Vs=(r,a)=>{(!a.ptrType||!a.ptr)&&Gs("makeClassHandle requires ptr and ptrType");var l=!!a.smartPtrType,u=!!a.smartPtr;return l!==u&&Gs("Both smartPtrType and smartPtr must be specified"),a.count={value:1},$r(Object.create(r,{$$:{value:a,writable:!0}}))};function Qc(r){var a=this.getPointee(r);if(!a)return this.destructor(r),null;var l=$d(this.registeredClass,a);if(l!==void 0){if(l.$$.count.value===0)return l.$$.ptr=a,l.$$.smartPtr=r,l.clone();var u=l.clone();return this.destructor(r),u}function p(){return this.isSmartPointer?Vs(this.registeredClass.instancePrototype,{ptrType:this.pointeeType,ptr:a,smartPtrType:this,smartPtr:r}):Vs(this.registeredClass.instancePrototype,{ptrType:this,ptr:r})}var _=this.registeredClass.getActualType(a),E=Kc[_];if(!E)return p.call(this);var A;this.isConst?A=E.constPointerType:A=E.pointerType;var F=Zc(a,this.registeredClass,A.registeredClass);return F===null?p.call(this):this.isSmartPointer?Vs(A.registeredClass.instancePrototype,{ptrType:A,ptr:F,smartPtrType:this,smartPtr:r}):Vs(A.registeredClass.instancePrototype,{ptrType:A,ptr:F})}var $r=r=>typeof FinalizationRegistry>"u"?($r=a=>a,r):(cl=new FinalizationRegistry(a=>{console.warn(a.leakWarning),Jc(a.$$)}),$r=a=>{var l=a.$$,u=!!l.smartPtr;if(u){var p={$$:l},_=l.ptrType.registeredClass,E=new Error(`Embind found a leaked C++ instance ${_.name} <${Ot(l.ptr)}>.
+We'll free it automatically in this case, but this functionality is not reliable across various environments.
+Make sure to invoke .delete() manually once you're done with the instance instead.
+Originally allocated`);"captureStackTrace"in Error&&Error.captureStackTrace(E,Qc),p.leakWarning=E.stack.replace(/^Error: /,""),cl.register(a,p,a)}return a},jc=a=>cl.unregister(a),$r(r)),Hs=[],Yd=()=>{for(;Hs.length;){var r=Hs.pop();r.$$.deleteScheduled=!1,r.delete()}},eh,jd=()=>{let r=Ws.prototype;Object.assign(r,{isAliasOf(l){if(!(this instanceof Ws)||!(l instanceof Ws))return!1;var u=this.$$.ptrType.registeredClass,p=this.$$.ptr;l.$$=l.$$;for(var _=l.$$.ptrType.registeredClass,E=l.$$.ptr;u.baseClass;)p=u.upcast(p),u=u.baseClass;for(;_.baseClass;)E=_.upcast(E),_=_.baseClass;return u===_&&p===E},clone(){if(this.$$.ptr||ll(this),this.$$.preservePointerOnDelete)return this.$$.count.value+=1,this;var l=$r(Object.create(Object.getPrototypeOf(this),{$$:{value:Vd(this.$$)}}));return l.$$.count.value+=1,l.$$.deleteScheduled=!1,l},delete(){this.$$.ptr||ll(this),this.$$.deleteScheduled&&!this.$$.preservePointerOnDelete&&_t("Object already scheduled for deletion"),jc(this),Jc(this.$$),this.$$.preservePointerOnDelete||(this.$$.smartPtr=void 0,this.$$.ptr=void 0)},isDeleted(){return!this.$$.ptr},deleteLater(){return this.$$.ptr||ll(this),this.$$.deleteScheduled&&!this.$$.preservePointerOnDelete&&_t("Object already scheduled for deletion"),Hs.push(this),Hs.length===1&&eh&&eh(Yd),this.$$.deleteScheduled=!0,this}});let a=Symbol.dispose;a&&(r[a]=r.delete)};function Ws(){}var Xs=(r,a)=>Object.defineProperty(a,"name",{value:r}),hl=(r,a,l)=>{if(r[a].overloadTable===void 0){var u=r[a];r[a]=function(...p){return r[a].overloadTable.hasOwnProperty(p.length)||_t(`Function '${l}' called with an invalid number of arguments (${p.length}) - expects one of (${r[a].overloadTable})!`),r[a].overloadTable[p.length].apply(this,p)},r[a].overloadTable=[],r[a].overloadTable[u.argCount]=u}},ul=(r,a,l)=>{t.hasOwnProperty(r)?((l===void 0||t[r].overloadTable!==void 0&&t[r].overloadTable[l]!==void 0)&&_t(`Cannot register public name '${r}' twice`),hl(t,r,r),t[r].overloadTable.hasOwnProperty(l)&&_t(`Cannot register multiple overloads of a function with the same number of arguments (${l})!`),t[r].overloadTable[l]=a):(t[r]=a,t[r].argCount=l)},Jd=48,Zd=57,Kd=r=>{G(typeof r=="string"),r=r.replace(/[^a-zA-Z0-9_]/g,"$");var a=r.charCodeAt(0);return a>=Jd&&a<=Zd?`_${r}`:r};function Qd(r,a,l,u,p,_,E,A){this.name=r,this.constructor=a,this.instancePrototype=l,this.rawDestructor=u,this.baseClass=p,this.getActualType=_,this.upcast=E,this.downcast=A,this.pureVirtualFunctions=[]}var $s=(r,a,l)=>{for(;a!==l;)a.upcast||_t(`Expected null or instance of ${l.name}, got an instance of ${a.name}`),r=a.upcast(r),a=a.baseClass;return r};function ef(r,a){if(a===null)return this.isReference&&_t(`null is not a valid ${this.name}`),0;a.$$||_t(`Cannot pass "${Gi(a)}" as a ${this.name}`),a.$$.ptr||_t(`Cannot pass deleted object as a pointer of type ${this.name}`);var l=a.$$.ptrType.registeredClass,u=$s(a.$$.ptr,l,this.registeredClass);return u}function tf(r,a){var l;if(a===null)return this.isReference&&_t(`null is not a valid ${this.name}`),this.isSmartPointer?(l=this.rawConstructor(),r!==null&&r.push(this.rawDestructor,l),l):0;(!a||!a.$$)&&_t(`Cannot pass "${Gi(a)}" as a ${this.name}`),a.$$.ptr||_t(`Cannot pass deleted object as a pointer of type ${this.name}`),!this.isConst&&a.$$.ptrType.isConst&&_t(`Cannot convert argument of type ${a.$$.smartPtrType?a.$$.smartPtrType.name:a.$$.ptrType.name} to parameter type ${this.name}`);var u=a.$$.ptrType.registeredClass;if(l=$s(a.$$.ptr,u,this.registeredClass),this.isSmartPointer)switch(a.$$.smartPtr===void 0&&_t("Passing raw pointer to smart pointer is illegal"),this.sharingPolicy){case 0:a.$$.smartPtrType===this?l=a.$$.smartPtr:_t(`Cannot convert argument of type ${a.$$.smartPtrType?a.$$.smartPtrType.name:a.$$.ptrType.name} to parameter type ${this.name}`);break;case 1:l=a.$$.smartPtr;break;case 2:if(a.$$.smartPtrType===this)l=a.$$.smartPtr;else{var p=a.clone();l=this.rawShare(l,jt.toHandle(()=>p.delete())),r!==null&&r.push(this.rawDestructor,l)}break;default:_t("Unsupporting sharing policy")}return l}function nf(r,a){if(a===null)return this.isReference&&_t(`null is not a valid ${this.name}`),0;a.$$||_t(`Cannot pass "${Gi(a)}" as a ${this.name}`),a.$$.ptr||_t(`Cannot pass deleted object as a pointer of type ${this.name}`),a.$$.ptrType.isConst&&_t(`Cannot convert argument of type ${a.$$.ptrType.name} to parameter type ${this.name}`);var l=a.$$.ptrType.registeredClass,u=$s(a.$$.ptr,l,this.registeredClass);return u}function qs(r){return this.fromWireType($e[r>>2])}var rf=()=>{Object.assign(Ys.prototype,{getPointee(r){return this.rawGetPointee&&(r=this.rawGetPointee(r)),r},destructor(r){this.rawDestructor?.(r)},argPackAdvance:Yn,readValueFromPointer:qs,fromWireType:Qc})};function Ys(r,a,l,u,p,_,E,A,F,X,K){this.name=r,this.registeredClass=a,this.isReference=l,this.isConst=u,this.isSmartPointer=p,this.pointeeType=_,this.sharingPolicy=E,this.rawGetPointee=A,this.rawConstructor=F,this.rawShare=X,this.rawDestructor=K,!p&&a.baseClass===void 0?u?(this.toWireType=ef,this.destructorFunction=null):(this.toWireType=nf,this.destructorFunction=null):this.toWireType=tf}var th=(r,a,l)=>{t.hasOwnProperty(r)||Gs("Replacing nonexistent public symbol"),t[r].overloadTable!==void 0&&l!==void 0?t[r].overloadTable[l]=a:(t[r]=a,t[r].argCount=l)},nh=[],js,be=r=>{var a=nh[r];return a||(nh[r]=a=js.get(r)),G(js.get(r)==a,"JavaScript-side Wasm function table mirror is out of date!"),a},jn=(r,a,l=!1)=>{G(!l,"Async bindings are only supported with JSPI."),r=Yt(r);function u(){var _=be(a);return _}var p=u();return typeof p!="function"&&_t(`unknown function pointer with signature ${r}: ${a}`),p};class sf extends Error{}var ih=r=>{var a=Sh(r),l=Yt(a);return Nn(a),l},Vi=(r,a)=>{var l=[],u={};function p(_){if(!u[_]&&!zi[_]){if(zs[_]){zs[_].forEach(p);return}l.push(_),u[_]=!0}}throw a.forEach(p),new sf(`${r}: `+l.map(ih).join([", "]))},Fn=(r,a,l)=>{r.forEach(A=>zs[A]=a);function u(A){var F=l(A);F.length!==r.length&&Gs("Mismatched type converter count");for(var X=0;X<r.length;++X)Rn(r[X],F[X])}var p=new Array(a.length),_=[],E=0;a.forEach((A,F)=>{zi.hasOwnProperty(A)?p[F]=zi[A]:(_.push(A),lr.hasOwnProperty(A)||(lr[A]=[]),lr[A].push(()=>{p[F]=zi[A],++E,E===_.length&&u(p)}))}),_.length===0&&u(p)},af=(r,a,l,u,p,_,E,A,F,X,K,oe,fe)=>{K=Yt(K),_=jn(p,_),A&&=jn(E,A),X&&=jn(F,X),fe=jn(oe,fe);var ce=Kd(K);ul(ce,function(){Vi(`Cannot construct ${K} due to unbound types`,[u])}),Fn([r,a,l],u?[u]:[],_e=>{_e=_e[0];var Ze,vt;u?(Ze=_e.registeredClass,vt=Ze.instancePrototype):vt=Ws.prototype;var pt=Xs(K,function(...Ft){if(Object.getPrototypeOf(this)!==Ut)throw new Xr(`Use 'new' to construct ${K}`);if(bt.constructor_body===void 0)throw new Xr(`${K} has no accessible constructor`);var Xi=bt.constructor_body[Ft.length];if(Xi===void 0)throw new Xr(`Tried to invoke ctor of ${K} with invalid number of parameters (${Ft.length}) - expected (${Object.keys(bt.constructor_body).toString()}) parameters instead!`);return Xi.apply(this,Ft)}),Ut=Object.create(vt,{constructor:{value:pt}});pt.prototype=Ut;var bt=new Qd(K,pt,Ut,fe,Ze,_,A,X);bt.baseClass&&(bt.baseClass.__derivedClasses??=[],bt.baseClass.__derivedClasses.push(bt));var cn=new Ys(K,bt,!0,!1,!1),Jt=new Ys(K+"*",bt,!1,!1,!1),pn=new Ys(K+" const*",bt,!1,!0,!1);return Kc[r]={pointerType:Jt,constPointerType:pn},th(ce,pt),[cn,Jt,pn]})},dl=r=>{for(;r.length;){var a=r.pop(),l=r.pop();l(a)}};function rh(r){for(var a=1;a<r.length;++a)if(r[a]!==null&&r[a].destructorFunction===void 0)return!0;return!1}function of(r,a,l,u,p){if(r<a||r>l){var _=a==l?a:`${a} to ${l}`;p(`function ${u} called with ${r} arguments, expected ${_}`)}}function lf(r,a,l,u){var p=rh(r),_=r.length-2,E=[],A=["fn"];a&&A.push("thisWired");for(var F=0;F<_;++F)E.push(`arg${F}`),A.push(`arg${F}Wired`);E=E.join(","),A=A.join(",");var X=`return function (${E}) {
+`;X+=`checkArgCount(arguments.length, minArgs, maxArgs, humanName, throwBindingError);
+`,p&&(X+=`var destructors = [];
+`);var K=p?"destructors":"null",oe=["humanName","throwBindingError","invoker","fn","runDestructors","retType","classParam"];a&&(X+=`var thisWired = classParam['toWireType'](${K}, this);
+`);for(var F=0;F<_;++F)X+=`var arg${F}Wired = argType${F}['toWireType'](${K}, arg${F});
+`,oe.push(`argType${F}`);X+=(l||u?"var rv = ":"")+`invoker(${A});
+`;var fe=l?"rv":"";if(p)X+=`runDestructors(destructors);
+`;else for(var F=a?1:2;F<r.length;++F){var ce=F===1?"thisWired":"arg"+(F-2)+"Wired";r[F].destructorFunction!==null&&(X+=`${ce}_dtor(${ce});
+`,oe.push(`${ce}_dtor`))}return l&&(X+=`var ret = retType['fromWireType'](rv);
+return ret;
+`),X+=`}
+`,oe.push("checkArgCount","minArgs","maxArgs"),X=`if (arguments.length !== ${oe.length}){ throw new Error(humanName + "Expected ${oe.length} closure arguments " + arguments.length + " given."); }
+${X}`,[oe,X]}function cf(r){for(var a=r.length-2,l=r.length-1;l>=2&&r[l].optional;--l)a--;return a}function Js(r,a,l,u,p,_){var E=a.length;E<2&&_t("argTypes array size mismatch! Must at least get return value and 'this' types!"),G(!_,"Async bindings are only supported with JSPI.");for(var A=a[1]!==null&&l!==null,F=rh(a),X=a[0].name!=="void",K=E-2,oe=cf(a),fe=[r,_t,u,p,dl,a[0],a[1]],ce=0;ce<E-2;++ce)fe.push(a[ce+2]);if(!F)for(var ce=A?1:2;ce<a.length;++ce)a[ce].destructorFunction!==null&&fe.push(a[ce].destructorFunction);fe.push(of,oe,K);let[_e,Ze]=lf(a,A,X,_);var vt=new Function(..._e,Ze)(...fe);return Xs(r,vt)}var Zs=(r,a)=>{for(var l=[],u=0;u<r;u++)l.push($e[a+u*4>>2]);return l},fl=r=>{r=r.trim();let a=r.indexOf("(");return a===-1?r:(G(r.endsWith(")"),"Parentheses for argument names should match."),r.slice(0,a))},hf=(r,a,l,u,p,_,E,A,F)=>{var X=Zs(l,u);a=Yt(a),a=fl(a),_=jn(p,_,A),Fn([],[r],K=>{K=K[0];var oe=`${K.name}.${a}`;function fe(){Vi(`Cannot call ${oe} due to unbound types`,X)}a.startsWith("@@")&&(a=Symbol[a.substring(2)]);var ce=K.registeredClass.constructor;return ce[a]===void 0?(fe.argCount=l-1,ce[a]=fe):(hl(ce,a,oe),ce[a].overloadTable[l-1]=fe),Fn([],X,_e=>{var Ze=[_e[0],null].concat(_e.slice(1)),vt=Js(oe,Ze,null,_,E,A);if(ce[a].overloadTable===void 0?(vt.argCount=l-1,ce[a]=vt):ce[a].overloadTable[l-1]=vt,K.registeredClass.__derivedClasses)for(let pt of K.registeredClass.__derivedClasses)pt.constructor.hasOwnProperty(a)||(pt.constructor[a]=vt);return[]}),[]})},uf=(r,a,l,u,p,_)=>{G(a>0);var E=Zs(a,l);p=jn(u,p);var A=[_],F=[];Fn([],[r],X=>{X=X[0];var K=`constructor ${X.name}`;if(X.registeredClass.constructor_body===void 0&&(X.registeredClass.constructor_body=[]),X.registeredClass.constructor_body[a-1]!==void 0)throw new Xr(`Cannot register multiple constructors with identical number of parameters (${a-1}) for class '${X.name}'! Overload resolution is currently only performed using the parameter count, not actual type info!`);return X.registeredClass.constructor_body[a-1]=()=>{Vi(`Cannot construct ${X.name} due to unbound types`,E)},Fn([],E,oe=>(oe.splice(1,0,null),X.registeredClass.constructor_body[a-1]=Js(K,oe,null,p,_),[])),[]})},df=(r,a,l,u,p,_,E,A,F,X)=>{var K=Zs(l,u);a=Yt(a),a=fl(a),_=jn(p,_,F),Fn([],[r],oe=>{oe=oe[0];var fe=`${oe.name}.${a}`;a.startsWith("@@")&&(a=Symbol[a.substring(2)]),A&&oe.registeredClass.pureVirtualFunctions.push(a);function ce(){Vi(`Cannot call ${fe} due to unbound types`,K)}var _e=oe.registeredClass.instancePrototype,Ze=_e[a];return Ze===void 0||Ze.overloadTable===void 0&&Ze.className!==oe.name&&Ze.argCount===l-2?(ce.argCount=l-2,ce.className=oe.name,_e[a]=ce):(hl(_e,a,fe),_e[a].overloadTable[l-2]=ce),Fn([],K,vt=>{var pt=Js(fe,vt,oe,_,E,F);return _e[a].overloadTable===void 0?(pt.argCount=l-2,_e[a]=pt):_e[a].overloadTable[l-2]=pt,[]}),[]})},sh=(r,a,l)=>(r instanceof Object||_t(`${l} with invalid "this": ${r}`),r instanceof a.registeredClass.constructor||_t(`${l} incompatible with "this" of type ${r.constructor.name}`),r.$$.ptr||_t(`cannot call emscripten binding method ${l} on deleted object`),$s(r.$$.ptr,r.$$.ptrType.registeredClass,a.registeredClass)),ff=(r,a,l,u,p,_,E,A,F,X)=>{a=Yt(a),p=jn(u,p),Fn([],[r],K=>{K=K[0];var oe=`${K.name}.${a}`,fe={get(){Vi(`Cannot access ${oe} due to unbound types`,[l,E])},enumerable:!0,configurable:!0};return F?fe.set=()=>Vi(`Cannot access ${oe} due to unbound types`,[l,E]):fe.set=ce=>_t(oe+" is a read-only property"),Object.defineProperty(K.registeredClass.instancePrototype,a,fe),Fn([],F?[l,E]:[l],ce=>{var _e=ce[0],Ze={get(){var pt=sh(this,K,oe+" getter");return _e.fromWireType(p(_,pt))},enumerable:!0};if(F){F=jn(A,F);var vt=ce[1];Ze.set=function(pt){var Ut=sh(this,K,oe+" setter"),bt=[];F(X,Ut,vt.toWireType(bt,pt)),dl(bt)}}return Object.defineProperty(K.registeredClass.instancePrototype,a,Ze),[]}),[]})},pf=(r,a,l)=>{r=Yt(r),Fn([],[a],u=>(u=u[0],t[r]=u.fromWireType(l),[]))},ah=[],Jn=[0,1,,1,null,1,!0,1,!1,1],pl=r=>{r>9&&--Jn[r+1]===0&&(G(Jn[r]!==void 0,"Decref for unallocated handle."),Jn[r]=void 0,ah.push(r))},jt={toValue:r=>(r||_t(`Cannot use deleted val. handle = ${r}`),G(r===2||Jn[r]!==void 0&&r%2===0,`invalid handle: ${r}`),Jn[r]),toHandle:r=>{switch(r){case void 0:return 2;case null:return 4;case!0:return 6;case!1:return 8;default:{let a=ah.pop()||Jn.length;return Jn[a]=r,Jn[a+1]=1,a}}}},oh={name:"emscripten::val",fromWireType:r=>{var a=jt.toValue(r);return pl(r),a},toWireType:(r,a)=>jt.toHandle(a),argPackAdvance:Yn,readValueFromPointer:qs,destructorFunction:null},lh=r=>Rn(r,oh),mf=(r,a,l)=>{switch(a){case 1:return l?function(u){return this.fromWireType(ht[u])}:function(u){return this.fromWireType(Rt[u])};case 2:return l?function(u){return this.fromWireType(St[u>>1])}:function(u){return this.fromWireType(Qt[u>>1])};case 4:return l?function(u){return this.fromWireType(Le[u>>2])}:function(u){return this.fromWireType($e[u>>2])};default:throw new TypeError(`invalid integer width (${a}): ${r}`)}},gf=(r,a,l,u)=>{a=Yt(a);function p(){}p.values={},Rn(r,{name:a,constructor:p,fromWireType:function(_){return this.constructor.values[_]},toWireType:(_,E)=>E.value,argPackAdvance:Yn,readValueFromPointer:mf(a,l,u),destructorFunction:null}),ul(a,p)},Ks=(r,a)=>{var l=zi[r];return l===void 0&&_t(`${a} has unknown type ${ih(r)}`),l},_f=(r,a,l)=>{var u=Ks(r,"enum");a=Yt(a);var p=u.constructor,_=Object.create(u.constructor.prototype,{value:{value:l},constructor:{value:Xs(`${u.name}_${a}`,function(){})}});p.values[l]=_,p[a]=_},vf=(r,a)=>{switch(a){case 4:return function(l){return this.fromWireType(an[l>>2])};case 8:return function(l){return this.fromWireType(en[l>>3])};default:throw new TypeError(`invalid float width (${a}): ${r}`)}},yf=(r,a,l)=>{a=Yt(a),Rn(r,{name:a,fromWireType:u=>u,toWireType:(u,p)=>{if(typeof p!="number"&&typeof p!="boolean")throw new TypeError(`Cannot convert ${Gi(p)} to ${this.name}`);return p},argPackAdvance:Yn,readValueFromPointer:vf(a,l),destructorFunction:null})},xf=(r,a,l,u,p,_,E,A)=>{var F=Zs(a,l);r=Yt(r),r=fl(r),p=jn(u,p,E),ul(r,function(){Vi(`Cannot call ${r} due to unbound types`,F)},a-1),Fn([],F,X=>{var K=[X[0],null].concat(X.slice(1));return th(r,Js(r,K,null,p,_,E),a-1),[]})},Sf=(r,a,l,u,p)=>{a=Yt(a);let _=u===0,E=F=>F;if(_){var A=32-8*l;E=F=>F<<A>>>A,p=E(p)}Rn(r,{name:a,fromWireType:E,toWireType:(F,X)=>{if(typeof X!="number"&&typeof X!="boolean")throw new TypeError(`Cannot convert "${Gi(X)}" to ${a}`);return Yc(a,X,u,p),X},argPackAdvance:Yn,readValueFromPointer:qc(a,l,u!==0),destructorFunction:null})},Mf=(r,a,l)=>{var u=[Int8Array,Uint8Array,Int16Array,Uint16Array,Int32Array,Uint32Array,Float32Array,Float64Array,BigInt64Array,BigUint64Array],p=u[a];function _(E){var A=$e[E>>2],F=$e[E+4>>2];return new p(ht.buffer,F,A)}l=Yt(l),Rn(r,{name:l,fromWireType:_,argPackAdvance:Yn,readValueFromPointer:_},{ignoreDuplicateRegistrations:!0})},bf=Object.assign({optional:!0},oh),wf=(r,a)=>{Rn(r,bf)},Hi=(r,a,l)=>(G(typeof l=="number","stringToUTF8(str, outPtr, maxBytesToWrite) is missing the third parameter that specifies the length of the output buffer!"),it(r,Rt,a,l)),Ef=(r,a)=>{a=Yt(a);var l=!0;Rn(r,{name:a,fromWireType(u){var p=$e[u>>2],_=u+4,E;if(l)for(var A=_,F=0;F<=p;++F){var X=_+F;if(F==p||Rt[X]==0){var K=X-A,oe=on(A,K);E===void 0?E=oe:(E+="\0",E+=oe),A=X+1}}else{for(var fe=new Array(p),F=0;F<p;++F)fe[F]=String.fromCharCode(Rt[_+F]);E=fe.join("")}return Nn(u),E},toWireType(u,p){p instanceof ArrayBuffer&&(p=new Uint8Array(p));var _,E=typeof p=="string";E||ArrayBuffer.isView(p)&&p.BYTES_PER_ELEMENT==1||_t("Cannot pass non-string to std::string"),l&&E?_=Ge(p):_=p.length;var A=vl(4+_+1),F=A+4;if($e[A>>2]=_,E)if(l)Hi(p,F,_+1);else for(var X=0;X<_;++X){var K=p.charCodeAt(X);K>255&&(Nn(A),_t("String has UTF-16 code units that do not fit in 8 bits")),Rt[F+X]=K}else Rt.set(p,F);return u!==null&&u.push(Nn,A),A},argPackAdvance:Yn,readValueFromPointer:qs,destructorFunction(u){Nn(u)}})},ch=typeof TextDecoder<"u"?new TextDecoder("utf-16le"):void 0,Tf=(r,a)=>{G(r%2==0,"Pointer passed to UTF16ToString must be aligned to two bytes!");for(var l=r>>1,u=l+a/2,p=l;!(p>=u)&&Qt[p];)++p;if(p-l>16&&ch)return ch.decode(Qt.subarray(l,p));for(var _="",E=l;!(E>=u);++E){var A=Qt[E];if(A==0)break;_+=String.fromCharCode(A)}return _},Af=(r,a,l)=>{if(G(a%2==0,"Pointer passed to stringToUTF16 must be aligned to two bytes!"),G(typeof l=="number","stringToUTF16(str, outPtr, maxBytesToWrite) is missing the third parameter that specifies the length of the output buffer!"),l??=2147483647,l<2)return 0;l-=2;for(var u=a,p=l<r.length*2?l/2:r.length,_=0;_<p;++_){var E=r.charCodeAt(_);St[a>>1]=E,a+=2}return St[a>>1]=0,a-u},Cf=r=>r.length*2,Rf=(r,a)=>{G(r%4==0,"Pointer passed to UTF32ToString must be aligned to four bytes!");for(var l="",u=0;!(u>=a/4);u++){var p=Le[r+u*4>>2];if(!p)break;l+=String.fromCodePoint(p)}return l},Pf=(r,a,l)=>{if(G(a%4==0,"Pointer passed to stringToUTF32 must be aligned to four bytes!"),G(typeof l=="number","stringToUTF32(str, outPtr, maxBytesToWrite) is missing the third parameter that specifies the length of the output buffer!"),l??=2147483647,l<4)return 0;for(var u=a,p=u+l-4,_=0;_<r.length;++_){var E=r.codePointAt(_);if(E>65535&&_++,Le[a>>2]=E,a+=4,a+4>p)break}return Le[a>>2]=0,a-u},If=r=>{for(var a=0,l=0;l<r.length;++l){var u=r.codePointAt(l);u>65535&&l++,a+=4}return a},Lf=(r,a,l)=>{l=Yt(l);var u,p,_,E;a===2?(u=Tf,p=Af,E=Cf,_=A=>Qt[A>>1]):a===4&&(u=Rf,p=Pf,E=If,_=A=>$e[A>>2]),Rn(r,{name:l,fromWireType:A=>{for(var F=$e[A>>2],X,K=A+4,oe=0;oe<=F;++oe){var fe=A+4+oe*a;if(oe==F||_(fe)==0){var ce=fe-K,_e=u(K,ce);X===void 0?X=_e:(X+="\0",X+=_e),K=fe+a}}return Nn(A),X},toWireType:(A,F)=>{typeof F!="string"&&_t(`Cannot pass non-string to C++ string type ${l}`);var X=E(F),K=vl(4+X+a);return $e[K>>2]=X/a,p(F,K+4,X+a),A!==null&&A.push(Nn,K),K},argPackAdvance:Yn,readValueFromPointer:qs,destructorFunction(A){Nn(A)}})},Df=(r,a)=>{lh(r)},Ff=(r,a)=>{a=Yt(a),Rn(r,{isVoid:!0,name:a,argPackAdvance:0,fromWireType:()=>{},toWireType:(l,u)=>{}})},Nf=()=>{throw new me},hh=(r,a,l)=>{var u=[],p=r.toWireType(u,l);return u.length&&($e[a>>2]=jt.toHandle(u)),p},Uf=(r,a,l)=>(r=jt.toValue(r),a=Ks(a,"emval::as"),hh(a,l,r)),Qs=[],Of=(r,a,l,u)=>(r=Qs[r],a=jt.toValue(a),r(null,a,l,u)),Bf={},ml=r=>{var a=Bf[r];return a===void 0?Yt(r):a},kf=(r,a,l,u,p)=>(r=Qs[r],a=jt.toValue(a),l=ml(l),r(a,a[l],u,p)),uh=()=>globalThis,zf=r=>r===0?jt.toHandle(uh()):(r=ml(r),jt.toHandle(uh()[r])),Gf=r=>{var a=Qs.length;return Qs.push(r),a},Vf=(r,a)=>{for(var l=new Array(r),u=0;u<r;++u)l[u]=Ks($e[a+u*4>>2],`parameter ${u}`);return l},Hf=(r,a,l)=>{var u=Vf(r,a),p=u.shift();r--;var _=`return function (obj, func, destructorsRef, args) {
+`,E=0,A=[];l===0&&A.push("obj");for(var F=["retType"],X=[p],K=0;K<r;++K)A.push(`arg${K}`),F.push(`argType${K}`),X.push(u[K]),_+=`  var arg${K} = argType${K}.readValueFromPointer(args${E?"+"+E:""});
+`,E+=u[K].argPackAdvance;var oe=l===1?"new func":"func.call";_+=`  var rv = ${oe}(${A.join(", ")});
+`,p.isVoid||(F.push("emval_returnValue"),X.push(hh),_+=`  return emval_returnValue(retType, destructorsRef, rv);
+`),_+=`};
+`;var fe=new Function(...F,_)(...X),ce=`methodCaller<(${u.map(_e=>_e.name).join(", ")}) => ${p.name}>`;return Gf(Xs(ce,fe))},Wf=(r,a)=>(r=jt.toValue(r),a=jt.toValue(a),jt.toHandle(r[a])),Xf=r=>{r>9&&(Jn[r+1]+=1)},$f=r=>(r=jt.toValue(r),typeof r=="number"),qf=r=>(r=jt.toValue(r),typeof r=="string"),Yf=()=>jt.toHandle([]),jf=r=>jt.toHandle(ml(r)),Jf=r=>{var a=jt.toValue(r);dl(a),pl(r)},Zf=(r,a)=>{r=Ks(r,"_emval_take_value");var l=r.readValueFromPointer(a);return jt.toHandle(l)},Kf=r=>{throw r=jt.toValue(r),r},Qf=r=>r%4===0&&(r%100!==0||r%400===0),ep=[0,31,60,91,121,152,182,213,244,274,305,335],tp=[0,31,59,90,120,151,181,212,243,273,304,334],dh=r=>{var a=Qf(r.getFullYear()),l=a?ep:tp,u=l[r.getMonth()]+r.getDate()-1;return u},np=9007199254740992,ip=-9007199254740992,gl=r=>r<ip||r>np?NaN:Number(r);function rp(r,a){r=gl(r);var l=new Date(r*1e3);Le[a>>2]=l.getSeconds(),Le[a+4>>2]=l.getMinutes(),Le[a+8>>2]=l.getHours(),Le[a+12>>2]=l.getDate(),Le[a+16>>2]=l.getMonth(),Le[a+20>>2]=l.getFullYear()-1900,Le[a+24>>2]=l.getDay();var u=dh(l)|0;Le[a+28>>2]=u,Le[a+36>>2]=-(l.getTimezoneOffset()*60);var p=new Date(l.getFullYear(),0,1),_=new Date(l.getFullYear(),6,1).getTimezoneOffset(),E=p.getTimezoneOffset(),A=(_!=E&&l.getTimezoneOffset()==Math.min(E,_))|0;Le[a+32>>2]=A}var sp=function(r){var a=(()=>{var l=new Date(Le[r+20>>2]+1900,Le[r+16>>2],Le[r+12>>2],Le[r+8>>2],Le[r+4>>2],Le[r>>2],0),u=Le[r+32>>2],p=l.getTimezoneOffset(),_=new Date(l.getFullYear(),0,1),E=new Date(l.getFullYear(),6,1).getTimezoneOffset(),A=_.getTimezoneOffset(),F=Math.min(A,E);if(u<0)Le[r+32>>2]=+(E!=A&&F==p);else if(u>0!=(F==p)){var X=Math.max(A,E),K=u>0?F:X;l.setTime(l.getTime()+(K-p)*6e4)}Le[r+24>>2]=l.getDay();var oe=dh(l)|0;Le[r+28>>2]=oe,Le[r>>2]=l.getSeconds(),Le[r+4>>2]=l.getMinutes(),Le[r+8>>2]=l.getHours(),Le[r+12>>2]=l.getDate(),Le[r+16>>2]=l.getMonth(),Le[r+20>>2]=l.getYear();var fe=l.getTime();return isNaN(fe)?-1:fe/1e3})();return BigInt(a)},ap=(r,a,l,u)=>{var p=new Date().getFullYear(),_=new Date(p,0,1),E=new Date(p,6,1),A=_.getTimezoneOffset(),F=E.getTimezoneOffset(),X=Math.max(A,F);$e[r>>2]=X*60,Le[a>>2]=+(A!=F);var K=ce=>{var _e=ce>=0?"-":"+",Ze=Math.abs(ce),vt=String(Math.floor(Ze/60)).padStart(2,"0"),pt=String(Ze%60).padStart(2,"0");return`UTC${_e}${vt}${pt}`},oe=K(A),fe=K(F);G(oe),G(fe),G(Ge(oe)<=16,`timezone name truncated to fit in TZNAME_MAX (${oe})`),G(Ge(fe)<=16,`timezone name truncated to fit in TZNAME_MAX (${fe})`),F<A?(Hi(oe,l,17),Hi(fe,u,17)):(Hi(oe,u,17),Hi(fe,l,17))},fh=()=>performance.now(),ph=()=>Date.now(),op=1,lp=r=>r>=0&&r<=3;function cp(r,a,l){if(a=gl(a),!lp(r))return 28;var u;if(r===0)u=ph();else if(op)u=fh();else return 52;var p=Math.round(u*1e3*1e3);return W[l>>3]=BigInt(p),0}var ea=[],hp=(r,a)=>{G(Array.isArray(ea)),G(a%16==0),ea.length=0;for(var l;l=Rt[r++];){var u=String.fromCharCode(l),p=["d","f","i","p"];p.push("j"),G(p.includes(u),`Invalid character ${l}("${u}") in readEmAsmArgs! Use only [${p}], and do not specify "v" for void return argument.`);var _=l!=105;_&=l!=112,a+=_&&a%8?4:0,ea.push(l==112?$e[a>>2]:l==106?W[a>>3]:l==105?Le[a>>2]:en[a>>3]),a+=_?8:4}return ea},up=(r,a,l)=>{var u=hp(a,l);return G(xh.hasOwnProperty(r),`No EM_ASM constant found at address ${r}.  The loaded WebAssembly file is likely out of sync with the generated JavaScript.`),xh[r](...u)},dp=(r,a,l)=>up(r,a,l),mh=()=>2147483648,fp=()=>mh(),pp=(r,a)=>(G(a,"alignment argument is required"),Math.ceil(r/a)*a),mp=r=>{var a=Vt.buffer,l=(r-a.byteLength+65535)/65536|0;try{return Vt.grow(l),Nt(),1}catch(u){P(`growMemory: Attempted to grow heap from ${a.byteLength} bytes to ${r} bytes, but got error: ${u}`)}},gp=r=>{var a=Rt.length;r>>>=0,G(r>a);var l=mh();if(r>l)return P(`Cannot enlarge memory, requested ${r} bytes, but the limit is ${l} bytes!`),!1;for(var u=1;u<=4;u*=2){var p=a*(1+.2/u);p=Math.min(p,r+100663296);var _=Math.min(l,pp(Math.max(r,p),65536)),E=mp(_);if(E)return!0}return P(`Failed to grow the heap from ${a} bytes to ${_} bytes, not enough memory!`),!1},_l={},_p=()=>d||"./this.program",qr=()=>{if(!qr.strings){var r=(typeof navigator=="object"&&navigator.language||"C").replace("-","_")+".UTF-8",a={USER:"web_user",LOGNAME:"web_user",PATH:"/",PWD:"/",HOME:"/home/web_user",LANG:r,_:_p()};for(var l in _l)_l[l]===void 0?delete a[l]:a[l]=_l[l];var u=[];for(var l in a)u.push(`${l}=${a[l]}`);qr.strings=u}return qr.strings},vp=(r,a)=>{var l=0,u=0;for(var p of qr()){var _=a+l;$e[r+u>>2]=_,l+=Hi(p,_,1/0)+1,u+=4}return 0},yp=(r,a)=>{var l=qr();$e[r>>2]=l.length;var u=0;for(var p of l)u+=Ge(p)+1;return $e[a>>2]=u,0},gh=0,_h=()=>Et||gh>0,xp=r=>{ie=r,_h()||(t.onExit?.(r),z=!0),m(r,new Ae(r))},Sp=(r,a)=>{if(ie=r,Ng(),_h()&&!a){var l=`program exited (with status: ${r}), but keepRuntimeAlive() is set (counter=${gh}) due to an async operation, so halting execution but not exiting the runtime or preventing further async execution (you can use emscripten_force_exit, if you want to force a true shutdown)`;dt?.(l),P(l)}xp(r)},Mp=Sp;function bp(r){try{var a=ct.getStreamFromFD(r);return M.close(a),0}catch(l){if(typeof M>"u"||l.name!=="ErrnoError")throw l;return l.errno}}var wp=(r,a,l,u)=>{for(var p=0,_=0;_<l;_++){var E=$e[a>>2],A=$e[a+4>>2];a+=8;var F=M.read(r,ht,E,A,u);if(F<0)return-1;if(p+=F,F<A)break;typeof u<"u"&&(u+=F)}return p};function Ep(r,a,l,u){try{var p=ct.getStreamFromFD(r),_=wp(p,a,l);return $e[u>>2]=_,0}catch(E){if(typeof M>"u"||E.name!=="ErrnoError")throw E;return E.errno}}function Tp(r,a,l,u){a=gl(a);try{if(isNaN(a))return 61;var p=ct.getStreamFromFD(r);return M.llseek(p,a,l),W[u>>3]=BigInt(p.position),p.getdents&&a===0&&l===0&&(p.getdents=null),0}catch(_){if(typeof M>"u"||_.name!=="ErrnoError")throw _;return _.errno}}var Ap=(r,a,l,u)=>{for(var p=0,_=0;_<l;_++){var E=$e[a>>2],A=$e[a+4>>2];a+=8;var F=M.write(r,ht,E,A,u);if(F<0)return-1;if(p+=F,F<A)break;typeof u<"u"&&(u+=F)}return p};function Cp(r,a,l,u){try{var p=ct.getStreamFromFD(r),_=Ap(p,a,l);return $e[u>>2]=_,0}catch(E){if(typeof M>"u"||E.name!=="ErrnoError")throw E;return E.errno}}var Rp=r=>r,Pp=r=>{var a=t["_"+r];return G(a,"Cannot call unknown function "+r+", make sure it is exported"),a},Ip=(r,a)=>{G(r.length>=0,"writeArrayToMemory array must have a length (should be an array or typed array)"),ht.set(r,a)},ta=r=>Th(r),Lp=r=>{var a=Ge(r)+1,l=ta(a);return Hi(r,l,a),l},vh=(r,a,l,u,p)=>{var _={string:_e=>{var Ze=0;return _e!=null&&_e!==0&&(Ze=Lp(_e)),Ze},array:_e=>{var Ze=ta(_e.length);return Ip(_e,Ze),Ze}};function E(_e){return a==="string"?on(_e):a==="boolean"?!!_e:_e}var A=Pp(r),F=[],X=0;if(G(a!=="array",'Return type should not be "array".'),u)for(var K=0;K<u.length;K++){var oe=_[l[K]];oe?(X===0&&(X=ge()),F[K]=oe(u[K])):F[K]=u[K]}var fe=A(...F);function ce(_e){return X!==0&&ye(X),E(_e)}return fe=ce(fe),fe},Dp=(r,a,l,u)=>(...p)=>vh(r,a,l,p,u),Fp=(...r)=>M.createPath(...r),Np=(...r)=>M.unlink(...r),Up=(...r)=>M.createLazyFile(...r),Op=(...r)=>M.createDevice(...r),Bp=r=>na(r),kp=r=>Sl(r),zp=r=>{var a=ge(),l=ta(4),u=ta(4);Ch(r,l,u);var p=$e[l>>2],_=$e[u>>2],E=on(p);Nn(p);var A;return _&&(A=on(_),Nn(_)),ye(a),[E,A]},yh=r=>zp(r);M.createPreloadedFile=Xn,M.staticInit(),jd(),rf(),G(Jn.length===10),t.noExitRuntime&&(Et=t.noExitRuntime),t.preloadPlugins&&(tn=t.preloadPlugins),t.print&&(O=t.print),t.printErr&&(P=t.printErr),t.wasmBinary&&(ee=t.wasmBinary),Hp(),t.arguments&&(f=t.arguments),t.thisProgram&&(d=t.thisProgram),G(typeof t.memoryInitializerPrefixURL>"u","Module.memoryInitializerPrefixURL option was removed, use Module.locateFile instead"),G(typeof t.pthreadMainPrefixURL>"u","Module.pthreadMainPrefixURL option was removed, use Module.locateFile instead"),G(typeof t.cdInitializerPrefixURL>"u","Module.cdInitializerPrefixURL option was removed, use Module.locateFile instead"),G(typeof t.filePackagePrefixURL>"u","Module.filePackagePrefixURL option was removed, use Module.locateFile instead"),G(typeof t.read>"u","Module.read option was removed"),G(typeof t.readAsync>"u","Module.readAsync option was removed (modify readAsync in JS)"),G(typeof t.readBinary>"u","Module.readBinary option was removed (modify readBinary in JS)"),G(typeof t.setWindowTitle>"u","Module.setWindowTitle option was removed (modify emscripten_set_window_title in JS)"),G(typeof t.TOTAL_MEMORY>"u","Module.TOTAL_MEMORY has been renamed Module.INITIAL_MEMORY"),G(typeof t.ENVIRONMENT>"u","Module.ENVIRONMENT has been deprecated. To force the environment, use the ENVIRONMENT compile-time option (for example, -sENVIRONMENT=web or -sENVIRONMENT=node)"),G(typeof t.STACK_SIZE>"u","STACK_SIZE can no longer be set at runtime.  Use -sSTACK_SIZE at link time"),G(typeof t.wasmMemory>"u","Use of `wasmMemory` detected.  Use -sIMPORTED_MEMORY to define wasmMemory externally"),G(typeof t.INITIAL_MEMORY>"u","Detected runtime INITIAL_MEMORY setting.  Use -sIMPORTED_MEMORY to define wasmMemory dynamically"),t.addRunDependency=ve,t.removeRunDependency=de,t.ccall=vh,t.cwrap=Dp,t.FS_createPreloadedFile=Xn,t.FS_unlink=Np,t.FS_createPath=Fp,t.FS_createDevice=Op,t.FS=M,t.FS_createDataFile=qt,t.FS_createLazyFile=Up,t.MEMFS=ke;var Gp=["writeI53ToI64","writeI53ToI64Clamped","writeI53ToI64Signaling","writeI53ToU64Clamped","writeI53ToU64Signaling","readI53FromI64","readI53FromU64","convertI32PairToI53","convertI32PairToI53Checked","convertU32PairToI53","getTempRet0","zeroMemory","withStackSave","inetPton4","inetNtop4","inetPton6","inetNtop6","readSockaddr","writeSockaddr","emscriptenLog","runMainThreadEmAsm","jstoi_q","autoResumeAudioContext","getDynCaller","dynCall","handleException","runtimeKeepalivePush","runtimeKeepalivePop","callUserCallback","maybeExit","asmjsMangle","HandleAllocator","getNativeTypeSize","addOnInit","addOnPostCtor","addOnPreMain","addOnExit","STACK_SIZE","STACK_ALIGN","POINTER_SIZE","ASSERTIONS","uleb128Encode","sigToWasmTypes","generateFuncType","convertJsFunctionToWasm","getEmptyTableSlot","updateTableMap","getFunctionAddress","addFunction","removeFunction","reallyNegative","unSign","strLen","reSign","formatString","intArrayToString","stringToAscii","stringToNewUTF8","registerKeyEventCallback","maybeCStringToJsString","findEventTarget","getBoundingClientRect","fillMouseEventData","registerMouseEventCallback","registerWheelEventCallback","registerUiEventCallback","registerFocusEventCallback","fillDeviceOrientationEventData","registerDeviceOrientationEventCallback","fillDeviceMotionEventData","registerDeviceMotionEventCallback","screenOrientation","fillOrientationChangeEventData","registerOrientationChangeEventCallback","fillFullscreenChangeEventData","registerFullscreenChangeEventCallback","JSEvents_requestFullscreen","JSEvents_resizeCanvasForFullscreen","registerRestoreOldStyle","hideEverythingExceptGivenElement","restoreHiddenElements","setLetterbox","softFullscreenResizeWebGLRenderTarget","doRequestFullscreen","fillPointerlockChangeEventData","registerPointerlockChangeEventCallback","registerPointerlockErrorEventCallback","requestPointerLock","fillVisibilityChangeEventData","registerVisibilityChangeEventCallback","registerTouchEventCallback","fillGamepadEventData","registerGamepadEventCallback","registerBeforeUnloadEventCallback","fillBatteryEventData","battery","registerBatteryEventCallback","setCanvasElementSize","getCanvasElementSize","jsStackTrace","getCallstack","convertPCtoSourceLocation","wasiRightsToMuslOFlags","wasiOFlagsToMuslOFlags","safeSetTimeout","setImmediateWrapped","safeRequestAnimationFrame","clearImmediateWrapped","registerPostMainLoop","registerPreMainLoop","getPromise","makePromise","idsToPromises","makePromiseCallback","Browser_asyncPrepareDataCounter","arraySum","addDays","getSocketFromFD","getSocketAddress","FS_mkdirTree","_setNetworkCallback","heapObjectForWebGLType","toTypedArrayIndex","webgl_enable_ANGLE_instanced_arrays","webgl_enable_OES_vertex_array_object","webgl_enable_WEBGL_draw_buffers","webgl_enable_WEBGL_multi_draw","webgl_enable_EXT_polygon_offset_clamp","webgl_enable_EXT_clip_control","webgl_enable_WEBGL_polygon_mode","emscriptenWebGLGet","computeUnpackAlignedImageSize","colorChannelsInGlTextureFormat","emscriptenWebGLGetTexPixelData","emscriptenWebGLGetUniform","webglGetUniformLocation","webglPrepareUniformLocationsBeforeFirstUse","webglGetLeftBracePos","emscriptenWebGLGetVertexAttrib","__glGetActiveAttribOrUniform","writeGLArray","registerWebGlEventCallback","runAndAbortIfError","ALLOC_NORMAL","ALLOC_STACK","allocate","writeStringToMemory","writeAsciiToMemory","demangle","stackTrace","getFunctionArgsName","createJsInvokerSignature","PureVirtualError","registerInheritedInstance","unregisterInheritedInstance","getInheritedInstanceCount","getLiveInheritedInstances","setDelayFunction","count_emval_handles"];Gp.forEach(Qe);var Vp=["run","out","err","callMain","abort","wasmMemory","wasmExports","HEAPF32","HEAPF64","HEAP8","HEAPU8","HEAP16","HEAPU16","HEAP32","HEAPU32","HEAP64","HEAPU64","writeStackCookie","checkStackCookie","INT53_MAX","INT53_MIN","bigintToI53Checked","stackSave","stackRestore","stackAlloc","setTempRet0","ptrToString","exitJS","getHeapMax","growMemory","ENV","ERRNO_CODES","strError","DNS","Protocols","Sockets","timers","warnOnce","readEmAsmArgsArray","readEmAsmArgs","runEmAsmFunction","getExecutableName","keepRuntimeAlive","asyncLoad","alignMemory","mmapAlloc","wasmTable","getUniqueRunDependency","noExitRuntime","addOnPreRun","addOnPostRun","freeTableIndexes","functionsInTableMap","setValue","getValue","PATH","PATH_FS","UTF8Decoder","UTF8ArrayToString","UTF8ToString","stringToUTF8Array","stringToUTF8","lengthBytesUTF8","intArrayFromString","AsciiToString","UTF16Decoder","UTF16ToString","stringToUTF16","lengthBytesUTF16","UTF32ToString","stringToUTF32","lengthBytesUTF32","stringToUTF8OnStack","writeArrayToMemory","JSEvents","specialHTMLTargets","findCanvasEventTarget","currentFullscreenStrategy","restoreOldWindowedStyle","UNWIND_CACHE","ExitStatus","getEnvStrings","checkWasiClock","doReadv","doWritev","initRandomFill","randomFill","emSetImmediate","emClearImmediate_deps","emClearImmediate","promiseMap","uncaughtExceptionCount","exceptionLast","exceptionCaught","ExceptionInfo","findMatchingCatch","getExceptionMessageCommon","Browser","requestFullscreen","requestFullScreen","setCanvasSize","getUserMedia","createContext","getPreloadedImageData__data","wget","MONTH_DAYS_REGULAR","MONTH_DAYS_LEAP","MONTH_DAYS_REGULAR_CUMULATIVE","MONTH_DAYS_LEAP_CUMULATIVE","isLeapYear","ydayFromDate","SYSCALLS","preloadPlugins","FS_modeStringToFlags","FS_getMode","FS_stdin_getChar_buffer","FS_stdin_getChar","FS_readFile","FS_root","FS_mounts","FS_devices","FS_streams","FS_nextInode","FS_nameTable","FS_currentPath","FS_initialized","FS_ignorePermissions","FS_filesystems","FS_syncFSRequests","FS_readFiles","FS_lookupPath","FS_getPath","FS_hashName","FS_hashAddNode","FS_hashRemoveNode","FS_lookupNode","FS_createNode","FS_destroyNode","FS_isRoot","FS_isMountpoint","FS_isFile","FS_isDir","FS_isLink","FS_isChrdev","FS_isBlkdev","FS_isFIFO","FS_isSocket","FS_flagsToPermissionString","FS_nodePermissions","FS_mayLookup","FS_mayCreate","FS_mayDelete","FS_mayOpen","FS_checkOpExists","FS_nextfd","FS_getStreamChecked","FS_getStream","FS_createStream","FS_closeStream","FS_dupStream","FS_doSetAttr","FS_chrdev_stream_ops","FS_major","FS_minor","FS_makedev","FS_registerDevice","FS_getDevice","FS_getMounts","FS_syncfs","FS_mount","FS_unmount","FS_lookup","FS_mknod","FS_statfs","FS_statfsStream","FS_statfsNode","FS_create","FS_mkdir","FS_mkdev","FS_symlink","FS_rename","FS_rmdir","FS_readdir","FS_readlink","FS_stat","FS_fstat","FS_lstat","FS_doChmod","FS_chmod","FS_lchmod","FS_fchmod","FS_doChown","FS_chown","FS_lchown","FS_fchown","FS_doTruncate","FS_truncate","FS_ftruncate","FS_utime","FS_open","FS_close","FS_isClosed","FS_llseek","FS_read","FS_write","FS_mmap","FS_msync","FS_ioctl","FS_writeFile","FS_cwd","FS_chdir","FS_createDefaultDirectories","FS_createDefaultDevices","FS_createSpecialDirectories","FS_createStandardStreams","FS_staticInit","FS_init","FS_quit","FS_findObject","FS_analyzePath","FS_createFile","FS_forceLoadFile","FS_absolutePath","FS_createFolder","FS_createLink","FS_joinPath","FS_mmapAlloc","FS_standardizePath","TTY","PIPEFS","SOCKFS","tempFixedLengthArray","miniTempWebGLFloatBuffers","miniTempWebGLIntBuffers","GL","AL","GLUT","EGL","GLEW","IDBStore","SDL","SDL_gfx","allocateUTF8","allocateUTF8OnStack","print","printErr","jstoi_s","InternalError","BindingError","throwInternalError","throwBindingError","registeredTypes","awaitingDependencies","typeDependencies","tupleRegistrations","structRegistrations","sharedRegisterType","whenDependentTypesAreResolved","getTypeName","getFunctionName","heap32VectorToArray","requireRegisteredType","usesDestructorStack","checkArgCount","getRequiredArgCount","createJsInvoker","UnboundTypeError","GenericWireTypeSize","EmValType","EmValOptionalType","throwUnboundTypeError","ensureOverloadTable","exposePublicSymbol","replacePublicSymbol","createNamedFunction","embindRepr","registeredInstances","getBasestPointer","getInheritedInstance","registeredPointers","registerType","integerReadValueFromPointer","enumReadValueFromPointer","floatReadValueFromPointer","assertIntegerRange","readPointer","runDestructors","craftInvokerFunction","embind__requireFunction","genericPointerToWireType","constNoSmartPtrRawPointerToWireType","nonConstNoSmartPtrRawPointerToWireType","init_RegisteredPointer","RegisteredPointer","RegisteredPointer_fromWireType","runDestructor","releaseClassHandle","finalizationRegistry","detachFinalizer_deps","detachFinalizer","attachFinalizer","makeClassHandle","init_ClassHandle","ClassHandle","throwInstanceAlreadyDeleted","deletionQueue","flushPendingDeletes","delayFunction","RegisteredClass","shallowCopyInternalPointer","downcastPointer","upcastPointer","validateThis","char_0","char_9","makeLegalFunctionName","emval_freelist","emval_handles","emval_symbols","getStringOrSymbol","Emval","emval_get_global","emval_returnValue","emval_lookupTypes","emval_methodCallers","emval_addMethodCaller"];Vp.forEach(wt),t.incrementExceptionRefcount=Bp,t.decrementExceptionRefcount=kp,t.getExceptionMessage=yh;function Hp(){Ye("fetchSettings")}var xh={679512:()=>{typeof t<"u"&&"mjDISABLESTRING mjENABLESTRING mjFRAMESTRING mjLABELSTRING mjRNDSTRING mjTIMERSTRING mjVISSTRING".split(" ").forEach(function(r){Object.defineProperty(t,r,{get:function(){return t["get_"+r]()},set:function(a){},enumerable:!0,configurable:!0})})}},Sh=Pe("___getTypeName"),vl=Pe("_malloc"),Wp=Pe("___cxa_free_exception"),yl=Pe("_fflush"),Nn=Pe("_free"),xl=Pe("_emscripten_stack_get_end"),Xp=Pe("_emscripten_stack_get_base"),Mh=Pe("_strerror"),xe=Pe("_setThrew"),bh=Pe("__emscripten_tempret_set"),wh=Pe("_emscripten_stack_init"),$p=Pe("_emscripten_stack_get_free"),Eh=Pe("__emscripten_stack_restore"),Th=Pe("__emscripten_stack_alloc"),Ah=Pe("_emscripten_stack_get_current"),Sl=Pe("___cxa_decrement_exception_refcount"),na=Pe("___cxa_increment_exception_refcount"),Ch=Pe("___get_exception_message"),Rh=Pe("___cxa_can_catch"),Ph=Pe("___cxa_get_exception_ptr");function qp(r){Sh=Me("__getTypeName",1),vl=Me("malloc",1),Wp=Me("__cxa_free_exception",1),yl=Me("fflush",1),Nn=Me("free",1),xl=r.emscripten_stack_get_end,Xp=r.emscripten_stack_get_base,Mh=Me("strerror",1),xe=Me("setThrew",2),bh=Me("_emscripten_tempret_set",1),wh=r.emscripten_stack_init,$p=r.emscripten_stack_get_free,Eh=r._emscripten_stack_restore,Th=r._emscripten_stack_alloc,Ah=r.emscripten_stack_get_current,Sl=Me("__cxa_decrement_exception_refcount",1),na=Me("__cxa_increment_exception_refcount",1),Ch=Me("__get_exception_message",3),Rh=Me("__cxa_can_catch",3),Ph=Me("__cxa_get_exception_ptr",1)}var Ih={__assert_fail:Hr,__cxa_begin_catch:sr,__cxa_current_primary_exception:Bs,__cxa_end_catch:Bi,__cxa_find_matching_catch_2:sl,__cxa_find_matching_catch_3:al,__cxa_find_matching_catch_4:ol,__cxa_rethrow:Wr,__cxa_rethrow_primary_exception:C,__cxa_throw:V,__cxa_uncaught_exceptions:te,__resumeException:Z,__syscall_dup3:Mn,__syscall_fcntl64:Dn,__syscall_fstat64:ks,__syscall_ioctl:Dd,__syscall_lstat64:Fd,__syscall_newfstatat:Nd,__syscall_openat:Ud,__syscall_stat64:Od,_abort_js:Bd,_embind_register_bigint:zd,_embind_register_bool:Gd,_embind_register_class:af,_embind_register_class_class_function:hf,_embind_register_class_constructor:uf,_embind_register_class_function:df,_embind_register_class_property:ff,_embind_register_constant:pf,_embind_register_emval:lh,_embind_register_enum:gf,_embind_register_enum_value:_f,_embind_register_float:yf,_embind_register_function:xf,_embind_register_integer:Sf,_embind_register_memory_view:Mf,_embind_register_optional:wf,_embind_register_std_string:Ef,_embind_register_std_wstring:Lf,_embind_register_user_type:Df,_embind_register_void:Ff,_emscripten_throw_longjmp:Nf,_emval_as:Uf,_emval_call:Of,_emval_call_method:kf,_emval_decref:pl,_emval_get_global:zf,_emval_get_method_caller:Hf,_emval_get_property:Wf,_emval_incref:Xf,_emval_is_number:$f,_emval_is_string:qf,_emval_new_array:Yf,_emval_new_cstring:jf,_emval_run_destructors:Jf,_emval_take_value:Zf,_emval_throw:Kf,_localtime_js:rp,_mktime_js:sp,_tzset_js:ap,clock_time_get:cp,emscripten_asm_const_int:dp,emscripten_date_now:ph,emscripten_get_heap_max:fp,emscripten_get_now:fh,emscripten_resize_heap:gp,environ_get:vp,environ_sizes_get:yp,exit:Mp,fd_close:bp,fd_read:Ep,fd_seek:Tp,fd_write:Cp,invoke_ddd:xg,invoke_dddi:Om,invoke_dddidi:Bm,invoke_ddidi:Um,invoke_di:km,invoke_dii:Am,invoke_diii:om,invoke_diiii:Nm,invoke_diiiidd:Dm,invoke_diiiidi:hm,invoke_diiiii:nm,invoke_diiiiii:gm,invoke_diiiiiii:zm,invoke_diiiiiiiii:pm,invoke_diiiiiiiiiiii:mm,invoke_fiii:Ig,invoke_i:im,invoke_id:sg,invoke_ii:Jp,invoke_iid:Jm,invoke_iidddd:Eg,invoke_iidiii:wm,invoke_iidiiid:Mm,invoke_iidiiiiidi:Em,invoke_iif:wg,invoke_iii:Yp,invoke_iiid:Tm,invoke_iiididdddddd:bm,invoke_iiidiiiiiiii:Sm,invoke_iiii:Qp,invoke_iiiidddiiiii:Vm,invoke_iiiii:am,invoke_iiiiid:og,invoke_iiiiii:tg,invoke_iiiiiii:Km,invoke_iiiiiiii:jm,invoke_iiiiiiiidd:lg,invoke_iiiiiiiii:Lm,invoke_iiiiiiiiii:Qm,invoke_iiiiiiiiiidddiiiiiiiii:xm,invoke_iiiiiiiiiii:Pg,invoke_iiiiiiiiiiii:Lg,invoke_iiiiiiiiiiiii:fg,invoke_iiij:eg,invoke_iiji:ag,invoke_j:Cg,invoke_ji:vg,invoke_jiiii:ng,invoke_jij:yg,invoke_v:Kp,invoke_vi:Zp,invoke_vid:Zm,invoke_viddd:ig,invoke_vidddd:rg,invoke_vidi:Fm,invoke_vidiii:vm,invoke_vii:tm,invoke_viid:Pm,invoke_viiddi:dg,invoke_viiddidi:ug,invoke_viiddii:Gm,invoke_viidi:Rm,invoke_viidii:cm,invoke_viidiii:qm,invoke_viidiiid:Xm,invoke_viidiiiii:ym,invoke_viidiiiiidi:Ym,invoke_viidiiiiiiii:_m,invoke_viii:jp,invoke_viiid:dm,invoke_viiidd:hg,invoke_viiidi:Cm,invoke_viiididdddddd:$m,invoke_viiidiiiiiiii:Wm,invoke_viiii:sm,invoke_viiiiddd:cg,invoke_viiiidi:Sg,invoke_viiiifi:Mg,invoke_viiiii:em,invoke_viiiiid:um,invoke_viiiiii:rm,invoke_viiiiiii:lm,invoke_viiiiiiii:Im,invoke_viiiiiiiiii:gg,invoke_viiiiiiiiiidddiiiiiiiii:Hm,invoke_viiiiiiiiiiid:fm,invoke_viiiiiiiiiiiii:mg,invoke_viiiiiiiiiiiiiii:Dg,invoke_viiiiiiiiiiiiiiiiii:_g,invoke_viiiij:Tg,invoke_viij:Ag,invoke_viijii:Rg,invoke_vij:bg,invoke_vijjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjjj:pg,llvm_eh_typeid_for:Rp},Wi=await Ee();function Yp(r,a,l){var u=ge();try{return be(r)(a,l)}catch(p){if(ye(u),!(p instanceof H))throw p;xe(1,0)}}function jp(r,a,l,u){var p=ge();try{be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function Jp(r,a){var l=ge();try{return be(r)(a)}catch(u){if(ye(l),!(u instanceof H))throw u;xe(1,0)}}function Zp(r,a){var l=ge();try{be(r)(a)}catch(u){if(ye(l),!(u instanceof H))throw u;xe(1,0)}}function Kp(r){var a=ge();try{be(r)()}catch(l){if(ye(a),!(l instanceof H))throw l;xe(1,0)}}function Qp(r,a,l,u){var p=ge();try{return be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function em(r,a,l,u,p,_){var E=ge();try{be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function tm(r,a,l){var u=ge();try{be(r)(a,l)}catch(p){if(ye(u),!(p instanceof H))throw p;xe(1,0)}}function nm(r,a,l,u,p,_){var E=ge();try{return be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function im(r){var a=ge();try{return be(r)()}catch(l){if(ye(a),!(l instanceof H))throw l;xe(1,0)}}function rm(r,a,l,u,p,_,E){var A=ge();try{be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function sm(r,a,l,u,p){var _=ge();try{be(r)(a,l,u,p)}catch(E){if(ye(_),!(E instanceof H))throw E;xe(1,0)}}function am(r,a,l,u,p){var _=ge();try{return be(r)(a,l,u,p)}catch(E){if(ye(_),!(E instanceof H))throw E;xe(1,0)}}function om(r,a,l,u){var p=ge();try{return be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function lm(r,a,l,u,p,_,E,A){var F=ge();try{be(r)(a,l,u,p,_,E,A)}catch(X){if(ye(F),!(X instanceof H))throw X;xe(1,0)}}function cm(r,a,l,u,p,_){var E=ge();try{be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function hm(r,a,l,u,p,_,E){var A=ge();try{return be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function um(r,a,l,u,p,_,E){var A=ge();try{be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function dm(r,a,l,u,p){var _=ge();try{be(r)(a,l,u,p)}catch(E){if(ye(_),!(E instanceof H))throw E;xe(1,0)}}function fm(r,a,l,u,p,_,E,A,F,X,K,oe,fe){var ce=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe)}catch(_e){if(ye(ce),!(_e instanceof H))throw _e;xe(1,0)}}function pm(r,a,l,u,p,_,E,A,F,X){var K=ge();try{return be(r)(a,l,u,p,_,E,A,F,X)}catch(oe){if(ye(K),!(oe instanceof H))throw oe;xe(1,0)}}function mm(r,a,l,u,p,_,E,A,F,X,K,oe,fe){var ce=ge();try{return be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe)}catch(_e){if(ye(ce),!(_e instanceof H))throw _e;xe(1,0)}}function gm(r,a,l,u,p,_,E){var A=ge();try{return be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function _m(r,a,l,u,p,_,E,A,F,X,K,oe){var fe=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K,oe)}catch(ce){if(ye(fe),!(ce instanceof H))throw ce;xe(1,0)}}function vm(r,a,l,u,p,_){var E=ge();try{be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function ym(r,a,l,u,p,_,E,A,F){var X=ge();try{be(r)(a,l,u,p,_,E,A,F)}catch(K){if(ye(X),!(K instanceof H))throw K;xe(1,0)}}function xm(r,a,l,u,p,_,E,A,F,X,K,oe,fe,ce,_e,Ze,vt,pt,Ut,bt,cn,Jt){var pn=ge();try{return be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe,ce,_e,Ze,vt,pt,Ut,bt,cn,Jt)}catch(Ft){if(ye(pn),!(Ft instanceof H))throw Ft;xe(1,0)}}function Sm(r,a,l,u,p,_,E,A,F,X,K,oe){var fe=ge();try{return be(r)(a,l,u,p,_,E,A,F,X,K,oe)}catch(ce){if(ye(fe),!(ce instanceof H))throw ce;xe(1,0)}}function Mm(r,a,l,u,p,_,E){var A=ge();try{return be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function bm(r,a,l,u,p,_,E,A,F,X,K,oe){var fe=ge();try{return be(r)(a,l,u,p,_,E,A,F,X,K,oe)}catch(ce){if(ye(fe),!(ce instanceof H))throw ce;xe(1,0)}}function wm(r,a,l,u,p,_){var E=ge();try{return be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function Em(r,a,l,u,p,_,E,A,F,X){var K=ge();try{return be(r)(a,l,u,p,_,E,A,F,X)}catch(oe){if(ye(K),!(oe instanceof H))throw oe;xe(1,0)}}function Tm(r,a,l,u){var p=ge();try{return be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function Am(r,a,l){var u=ge();try{return be(r)(a,l)}catch(p){if(ye(u),!(p instanceof H))throw p;xe(1,0)}}function Cm(r,a,l,u,p,_){var E=ge();try{be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function Rm(r,a,l,u,p){var _=ge();try{be(r)(a,l,u,p)}catch(E){if(ye(_),!(E instanceof H))throw E;xe(1,0)}}function Pm(r,a,l,u){var p=ge();try{be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function Im(r,a,l,u,p,_,E,A,F){var X=ge();try{be(r)(a,l,u,p,_,E,A,F)}catch(K){if(ye(X),!(K instanceof H))throw K;xe(1,0)}}function Lm(r,a,l,u,p,_,E,A,F){var X=ge();try{return be(r)(a,l,u,p,_,E,A,F)}catch(K){if(ye(X),!(K instanceof H))throw K;xe(1,0)}}function Dm(r,a,l,u,p,_,E){var A=ge();try{return be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function Fm(r,a,l,u){var p=ge();try{be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function Nm(r,a,l,u,p){var _=ge();try{return be(r)(a,l,u,p)}catch(E){if(ye(_),!(E instanceof H))throw E;xe(1,0)}}function Um(r,a,l,u,p){var _=ge();try{return be(r)(a,l,u,p)}catch(E){if(ye(_),!(E instanceof H))throw E;xe(1,0)}}function Om(r,a,l,u){var p=ge();try{return be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function Bm(r,a,l,u,p,_){var E=ge();try{return be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function km(r,a){var l=ge();try{return be(r)(a)}catch(u){if(ye(l),!(u instanceof H))throw u;xe(1,0)}}function zm(r,a,l,u,p,_,E,A){var F=ge();try{return be(r)(a,l,u,p,_,E,A)}catch(X){if(ye(F),!(X instanceof H))throw X;xe(1,0)}}function Gm(r,a,l,u,p,_,E){var A=ge();try{be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function Vm(r,a,l,u,p,_,E,A,F,X,K,oe){var fe=ge();try{return be(r)(a,l,u,p,_,E,A,F,X,K,oe)}catch(ce){if(ye(fe),!(ce instanceof H))throw ce;xe(1,0)}}function Hm(r,a,l,u,p,_,E,A,F,X,K,oe,fe,ce,_e,Ze,vt,pt,Ut,bt,cn,Jt,pn){var Ft=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe,ce,_e,Ze,vt,pt,Ut,bt,cn,Jt,pn)}catch(Xi){if(ye(Ft),!(Xi instanceof H))throw Xi;xe(1,0)}}function Wm(r,a,l,u,p,_,E,A,F,X,K,oe,fe){var ce=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe)}catch(_e){if(ye(ce),!(_e instanceof H))throw _e;xe(1,0)}}function Xm(r,a,l,u,p,_,E,A){var F=ge();try{be(r)(a,l,u,p,_,E,A)}catch(X){if(ye(F),!(X instanceof H))throw X;xe(1,0)}}function $m(r,a,l,u,p,_,E,A,F,X,K,oe,fe){var ce=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe)}catch(_e){if(ye(ce),!(_e instanceof H))throw _e;xe(1,0)}}function qm(r,a,l,u,p,_,E){var A=ge();try{be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function Ym(r,a,l,u,p,_,E,A,F,X,K){var oe=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K)}catch(fe){if(ye(oe),!(fe instanceof H))throw fe;xe(1,0)}}function jm(r,a,l,u,p,_,E,A){var F=ge();try{return be(r)(a,l,u,p,_,E,A)}catch(X){if(ye(F),!(X instanceof H))throw X;xe(1,0)}}function Jm(r,a,l){var u=ge();try{return be(r)(a,l)}catch(p){if(ye(u),!(p instanceof H))throw p;xe(1,0)}}function Zm(r,a,l){var u=ge();try{be(r)(a,l)}catch(p){if(ye(u),!(p instanceof H))throw p;xe(1,0)}}function Km(r,a,l,u,p,_,E){var A=ge();try{return be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function Qm(r,a,l,u,p,_,E,A,F,X){var K=ge();try{return be(r)(a,l,u,p,_,E,A,F,X)}catch(oe){if(ye(K),!(oe instanceof H))throw oe;xe(1,0)}}function eg(r,a,l,u){var p=ge();try{return be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function tg(r,a,l,u,p,_){var E=ge();try{return be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function ng(r,a,l,u,p){var _=ge();try{return be(r)(a,l,u,p)}catch(E){if(ye(_),!(E instanceof H))throw E;return xe(1,0),0n}}function ig(r,a,l,u,p){var _=ge();try{be(r)(a,l,u,p)}catch(E){if(ye(_),!(E instanceof H))throw E;xe(1,0)}}function rg(r,a,l,u,p,_){var E=ge();try{be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function sg(r,a){var l=ge();try{return be(r)(a)}catch(u){if(ye(l),!(u instanceof H))throw u;xe(1,0)}}function ag(r,a,l,u){var p=ge();try{return be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function og(r,a,l,u,p,_){var E=ge();try{return be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function lg(r,a,l,u,p,_,E,A,F,X){var K=ge();try{return be(r)(a,l,u,p,_,E,A,F,X)}catch(oe){if(ye(K),!(oe instanceof H))throw oe;xe(1,0)}}function cg(r,a,l,u,p,_,E,A){var F=ge();try{be(r)(a,l,u,p,_,E,A)}catch(X){if(ye(F),!(X instanceof H))throw X;xe(1,0)}}function hg(r,a,l,u,p,_){var E=ge();try{be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function ug(r,a,l,u,p,_,E,A){var F=ge();try{be(r)(a,l,u,p,_,E,A)}catch(X){if(ye(F),!(X instanceof H))throw X;xe(1,0)}}function dg(r,a,l,u,p,_){var E=ge();try{be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function fg(r,a,l,u,p,_,E,A,F,X,K,oe,fe){var ce=ge();try{return be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe)}catch(_e){if(ye(ce),!(_e instanceof H))throw _e;xe(1,0)}}function pg(r,a,l,u,p,_,E,A,F,X,K,oe,fe,ce,_e,Ze,vt,pt,Ut,bt,cn,Jt,pn,Ft,Xi,Og,Bg,kg,zg,Gg,Vg,Hg,Wg,Xg,$g,qg,Yg,jg,Jg,Zg,Kg,Qg,e_,t_,n_,i_,r_,s_,a_,o_,l_,c_,h_,u_,d_,f_,p_,m_,g_,__,v_,y_,x_,S_,M_,b_,w_,E_,T_,A_,C_,R_,P_,I_,L_,D_,F_,N_,U_,O_,B_,k_,z_,G_,V_,H_){var W_=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe,ce,_e,Ze,vt,pt,Ut,bt,cn,Jt,pn,Ft,Xi,Og,Bg,kg,zg,Gg,Vg,Hg,Wg,Xg,$g,qg,Yg,jg,Jg,Zg,Kg,Qg,e_,t_,n_,i_,r_,s_,a_,o_,l_,c_,h_,u_,d_,f_,p_,m_,g_,__,v_,y_,x_,S_,M_,b_,w_,E_,T_,A_,C_,R_,P_,I_,L_,D_,F_,N_,U_,O_,B_,k_,z_,G_,V_,H_)}catch(Dh){if(ye(W_),!(Dh instanceof H))throw Dh;xe(1,0)}}function mg(r,a,l,u,p,_,E,A,F,X,K,oe,fe,ce){var _e=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe,ce)}catch(Ze){if(ye(_e),!(Ze instanceof H))throw Ze;xe(1,0)}}function gg(r,a,l,u,p,_,E,A,F,X,K){var oe=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K)}catch(fe){if(ye(oe),!(fe instanceof H))throw fe;xe(1,0)}}function _g(r,a,l,u,p,_,E,A,F,X,K,oe,fe,ce,_e,Ze,vt,pt,Ut){var bt=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe,ce,_e,Ze,vt,pt,Ut)}catch(cn){if(ye(bt),!(cn instanceof H))throw cn;xe(1,0)}}function vg(r,a){var l=ge();try{return be(r)(a)}catch(u){if(ye(l),!(u instanceof H))throw u;return xe(1,0),0n}}function yg(r,a,l){var u=ge();try{return be(r)(a,l)}catch(p){if(ye(u),!(p instanceof H))throw p;return xe(1,0),0n}}function xg(r,a,l){var u=ge();try{return be(r)(a,l)}catch(p){if(ye(u),!(p instanceof H))throw p;xe(1,0)}}function Sg(r,a,l,u,p,_,E){var A=ge();try{be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function Mg(r,a,l,u,p,_,E){var A=ge();try{be(r)(a,l,u,p,_,E)}catch(F){if(ye(A),!(F instanceof H))throw F;xe(1,0)}}function bg(r,a,l){var u=ge();try{be(r)(a,l)}catch(p){if(ye(u),!(p instanceof H))throw p;xe(1,0)}}function wg(r,a,l){var u=ge();try{return be(r)(a,l)}catch(p){if(ye(u),!(p instanceof H))throw p;xe(1,0)}}function Eg(r,a,l,u,p,_){var E=ge();try{return be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function Tg(r,a,l,u,p,_){var E=ge();try{be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function Ag(r,a,l,u){var p=ge();try{be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function Cg(r){var a=ge();try{return be(r)()}catch(l){if(ye(a),!(l instanceof H))throw l;return xe(1,0),0n}}function Rg(r,a,l,u,p,_){var E=ge();try{be(r)(a,l,u,p,_)}catch(A){if(ye(E),!(A instanceof H))throw A;xe(1,0)}}function Pg(r,a,l,u,p,_,E,A,F,X,K){var oe=ge();try{return be(r)(a,l,u,p,_,E,A,F,X,K)}catch(fe){if(ye(oe),!(fe instanceof H))throw fe;xe(1,0)}}function Ig(r,a,l,u){var p=ge();try{return be(r)(a,l,u)}catch(_){if(ye(p),!(_ instanceof H))throw _;xe(1,0)}}function Lg(r,a,l,u,p,_,E,A,F,X,K,oe){var fe=ge();try{return be(r)(a,l,u,p,_,E,A,F,X,K,oe)}catch(ce){if(ye(fe),!(ce instanceof H))throw ce;xe(1,0)}}function Dg(r,a,l,u,p,_,E,A,F,X,K,oe,fe,ce,_e,Ze){var vt=ge();try{be(r)(a,l,u,p,_,E,A,F,X,K,oe,fe,ce,_e,Ze)}catch(pt){if(ye(vt),!(pt instanceof H))throw pt;xe(1,0)}}var Lh;function Fg(){wh(),Se()}function Ml(){if(Je>0){D=Ml;return}if(Fg(),De(),Je>0){D=Ml;return}function r(){G(!Lh),Lh=!0,t.calledRun=!0,!z&&(Xt(),Tt?.(t),t.onRuntimeInitialized?.(),Fe("onRuntimeInitialized"),G(!t._main,'compiled without a main, but one is present. if you added it from JS, use Module["onRuntimeInitialized"]'),je())}t.setStatus?(t.setStatus("Running..."),setTimeout(()=>{setTimeout(()=>t.setStatus(""),1),r()},1)):r(),re()}function Ng(){var r=O,a=P,l=!1;O=P=u=>{l=!0};try{yl(0),["stdout","stderr"].forEach(u=>{var p=M.analyzePath("/dev/"+u);if(p){var _=p.object,E=_.rdev,A=st.ttys[E];A?.output?.length&&(l=!0)}})}catch{}O=r,P=a,l&&Wn("stdio streams had content in them that was not flushed. you should set EXIT_RUNTIME to 1 (see the Emscripten FAQ), or make sure to emit a newline when you printf etc.")}function Ug(){if(t.preInit)for(typeof t.preInit=="function"&&(t.preInit=[t.preInit]);t.preInit.length>0;)t.preInit.shift()();Fe("preInit")}Ug(),Ml(),At?e=t:e=new Promise((r,a)=>{Tt=r,dt=a});for(let r of Object.keys(t))r in i||Object.defineProperty(i,r,{configurable:!0,get(){pe(`Access to module property ('${r}') is no longer possible via the module constructor argument; Instead, use the result of the module constructor.`)}});return e}),Fh=X_;var cu=0,Kl=1,hu=2;var Ki=1,uu=2,Nr=3,Ni=0,vn=1,ii=2,Qi=0,Ur=1,Ql=2,ec=3,tc=4,du=5;var er=100,fu=101,pu=102,mu=103,gu=104,_u=200,vu=201,yu=202,xu=203,nc=204,ic=205,Su=206,Mu=207,bu=208,wu=209,Eu=210,Tu=211,Au=212,Cu=213,Ru=214,Aa=0,Ca=1,Ra=2,br=3,Pa=4,Ia=5,La=6,Da=7,rc=0,Pu=1,Iu=2,ri=0,sc=1,ac=2,oc=3,lc=4,cc=5,hc=6,uc=7;var dc=300,tr=301,Or=302,ao=303,oo=304,Fa=1e3,Kn=1001,Na=1002,sn=1003,Lu=1004;var ws=1005;var _n=1006,lo=1007;var yi=1008;var Sn=1009,fc=1010,pc=1011,Br=1012,co=1013,zn=1014,Gn=1015,Vn=1016,ho=1017,uo=1018,nr=1020,mc=35902,gc=35899,_c=1021,vc=1022,Hn=1023,mi=1026,xi=1027,yc=1028,fo=1029,Ui=1030,po=1031;var mo=1033,Es=33776,Ts=33777,As=33778,Cs=33779,go=35840,_o=35841,vo=35842,yo=35843,xo=36196,So=37492,Mo=37496,bo=37488,wo=37489,Rs=37490,Eo=37491,To=37808,Ao=37809,Co=37810,Ro=37811,Po=37812,Io=37813,Lo=37814,Do=37815,Fo=37816,No=37817,Uo=37818,Oo=37819,Bo=37820,ko=37821,zo=36492,Go=36494,Vo=36495,Ho=36283,Wo=36284,Ps=36285,Xo=36286;var ns=2300,Ua=2301,Ea=2302,Wl=2303,Xl=2400,$l=2401,ql=2402;var Du=3200;var $o=0,Fu=1,Si="",mn="srgb",is="srgb-linear",rs="linear",Ct="srgb";var Ta=7680;var Nu=519,Uu=512,Ou=513,Bu=514,xc=515,ku=516,zu=517,Sc=518,Mc=519,Gu=35044;var bc="300 es",In=2e3,wr=2001;function $_(i){for(let e=i.length-1;e>=0;--e)if(i[e]>=65535)return!0;return!1}function q_(i){return ArrayBuffer.isView(i)&&!(i instanceof DataView)}function ss(i){return document.createElementNS("http://www.w3.org/1999/xhtml",i)}function Vu(){let i=ss("canvas");return i.style.display="block",i}var Nh={},Er=null;function wc(...i){let e="THREE."+i.shift();Er?Er("log",e,...i):console.log(e,...i)}function Hu(i){let e=i[0];if(typeof e=="string"&&e.startsWith("TSL:")){let t=i[1];t&&t.isStackTrace?i[0]+=" "+t.getLocation():i[1]='Stack trace not available. Enable "THREE.Node.captureStackTrace" to capture stack traces.'}return i}function et(...i){i=Hu(i);let e="THREE."+i.shift();if(Er)Er("warn",e,...i);else{let t=i[0];t&&t.isStackTrace?console.warn(t.getError(e)):console.warn(e,...i)}}function tt(...i){i=Hu(i);let e="THREE."+i.shift();if(Er)Er("error",e,...i);else{let t=i[0];t&&t.isStackTrace?console.error(t.getError(e)):console.error(e,...i)}}function Qr(...i){let e=i.join(" ");e in Nh||(Nh[e]=!0,et(...i))}function Wu(i,e,t){return new Promise(function(n,s){function o(){switch(i.clientWaitSync(e,i.SYNC_FLUSH_COMMANDS_BIT,0)){case i.WAIT_FAILED:s();break;case i.TIMEOUT_EXPIRED:setTimeout(o,t);break;default:n()}}setTimeout(o,t)})}var Xu={[Aa]:Aa,[Ra]:La,[Pa]:Pa,[br]:Ia,[Ca]:Ca,[La]:Ra,[Da]:Da,[Ia]:br},ei=class{addEventListener(e,t){this._listeners===void 0&&(this._listeners={});let n=this._listeners;n[e]===void 0&&(n[e]=[]),n[e].indexOf(t)===-1&&n[e].push(t)}hasEventListener(e,t){let n=this._listeners;return n===void 0?!1:n[e]!==void 0&&n[e].indexOf(t)!==-1}removeEventListener(e,t){let n=this._listeners;if(n===void 0)return;let s=n[e];if(s!==void 0){let o=s.indexOf(t);o!==-1&&s.splice(o,1)}}dispatchEvent(e){let t=this._listeners;if(t===void 0)return;let n=t[e.type];if(n!==void 0){e.target=this;let s=n.slice(0);for(let o=0,c=s.length;o<c;o++)s[o].call(this,e);e.target=null}}},hn=["00","01","02","03","04","05","06","07","08","09","0a","0b","0c","0d","0e","0f","10","11","12","13","14","15","16","17","18","19","1a","1b","1c","1d","1e","1f","20","21","22","23","24","25","26","27","28","29","2a","2b","2c","2d","2e","2f","30","31","32","33","34","35","36","37","38","39","3a","3b","3c","3d","3e","3f","40","41","42","43","44","45","46","47","48","49","4a","4b","4c","4d","4e","4f","50","51","52","53","54","55","56","57","58","59","5a","5b","5c","5d","5e","5f","60","61","62","63","64","65","66","67","68","69","6a","6b","6c","6d","6e","6f","70","71","72","73","74","75","76","77","78","79","7a","7b","7c","7d","7e","7f","80","81","82","83","84","85","86","87","88","89","8a","8b","8c","8d","8e","8f","90","91","92","93","94","95","96","97","98","99","9a","9b","9c","9d","9e","9f","a0","a1","a2","a3","a4","a5","a6","a7","a8","a9","aa","ab","ac","ad","ae","af","b0","b1","b2","b3","b4","b5","b6","b7","b8","b9","ba","bb","bc","bd","be","bf","c0","c1","c2","c3","c4","c5","c6","c7","c8","c9","ca","cb","cc","cd","ce","cf","d0","d1","d2","d3","d4","d5","d6","d7","d8","d9","da","db","dc","dd","de","df","e0","e1","e2","e3","e4","e5","e6","e7","e8","e9","ea","eb","ec","ed","ee","ef","f0","f1","f2","f3","f4","f5","f6","f7","f8","f9","fa","fb","fc","fd","fe","ff"],Uh=1234567,es=Math.PI/180,Tr=180/Math.PI;function kr(){let i=Math.random()*4294967295|0,e=Math.random()*4294967295|0,t=Math.random()*4294967295|0,n=Math.random()*4294967295|0;return(hn[i&255]+hn[i>>8&255]+hn[i>>16&255]+hn[i>>24&255]+"-"+hn[e&255]+hn[e>>8&255]+"-"+hn[e>>16&15|64]+hn[e>>24&255]+"-"+hn[t&63|128]+hn[t>>8&255]+"-"+hn[t>>16&255]+hn[t>>24&255]+hn[n&255]+hn[n>>8&255]+hn[n>>16&255]+hn[n>>24&255]).toLowerCase()}function xt(i,e,t){return Math.max(e,Math.min(t,i))}function Ec(i,e){return(i%e+e)%e}function Y_(i,e,t,n,s){return n+(i-e)*(s-n)/(t-e)}function j_(i,e,t){return i!==e?(t-i)/(e-i):0}function ts(i,e,t){return(1-t)*i+t*e}function J_(i,e,t,n){return ts(i,e,1-Math.exp(-t*n))}function Z_(i,e=1){return e-Math.abs(Ec(i,e*2)-e)}function K_(i,e,t){return i<=e?0:i>=t?1:(i=(i-e)/(t-e),i*i*(3-2*i))}function Q_(i,e,t){return i<=e?0:i>=t?1:(i=(i-e)/(t-e),i*i*i*(i*(i*6-15)+10))}function e0(i,e){return i+Math.floor(Math.random()*(e-i+1))}function t0(i,e){return i+Math.random()*(e-i)}function n0(i){return i*(.5-Math.random())}function i0(i){i!==void 0&&(Uh=i);let e=Uh+=1831565813;return e=Math.imul(e^e>>>15,e|1),e^=e+Math.imul(e^e>>>7,e|61),((e^e>>>14)>>>0)/4294967296}function r0(i){return i*es}function s0(i){return i*Tr}function a0(i){return i>0&&Number.isInteger(i)&&2**Math.round(Math.log2(i))===i}function o0(i){return Math.pow(2,Math.ceil(Math.log(i)/Math.LN2))}function Tc(i){return Math.pow(2,Math.floor(Math.log(i)/Math.LN2))}function l0(i,e,t,n,s){let o=Math.cos,c=Math.sin,h=o(t/2),f=c(t/2),d=o((e+n)/2),m=c((e+n)/2),v=o((e-n)/2),g=c((e-n)/2),S=o((n-e)/2),w=c((n-e)/2);switch(s){case"XYX":i.set(h*m,f*v,f*g,h*d);break;case"YZY":i.set(f*g,h*m,f*v,h*d);break;case"ZXZ":i.set(f*v,f*g,h*m,h*d);break;case"XZX":i.set(h*m,f*w,f*S,h*d);break;case"YXY":i.set(f*S,h*m,f*w,h*d);break;case"ZYZ":i.set(f*w,f*S,h*m,h*d);break;default:et("MathUtils: .setQuaternionFromProperEuler() encountered an unknown order: "+s)}}function Ac(i){switch(i.constructor){case Uint32Array:return 4294967295;case Uint16Array:return 65535;case Uint8Array:case Uint8ClampedArray:return 255;case Int32Array:return 2147483647;case Int16Array:return 32767;case Int8Array:return 127;default:return}}function $u(i,e){if(e.constructor===Float32Array)return i;let t=Ac(e);if(t===void 0)throw new Error("THREE.MathUtils: Invalid component type.");return Math.max(i/t,-1)}function qu(i,e){if(e.constructor===Float32Array)return i;let t=Ac(e);if(t===void 0)throw new Error("THREE.MathUtils: Invalid component type.");return Math.round(i*t)}var qo={DEG2RAD:es,RAD2DEG:Tr,generateUUID:kr,clamp:xt,euclideanModulo:Ec,mapLinear:Y_,inverseLerp:j_,lerp:ts,damp:J_,pingpong:Z_,smoothstep:K_,smootherstep:Q_,randInt:e0,randFloat:t0,randFloatSpread:n0,seededRandom:i0,degToRad:r0,radToDeg:s0,isPowerOfTwo:a0,ceilPowerOfTwo:o0,floorPowerOfTwo:Tc,setQuaternionFromProperEuler:l0,normalize:qu,denormalize:$u},gt=class{static{this.prototype.isVector2=!0}constructor(e=0,t=0){this.x=e,this.y=t}get width(){return this.x}set width(e){this.x=e}get height(){return this.y}set height(e){this.y=e}set(e,t){return this.x=e,this.y=t,this}setScalar(e){return this.x=e,this.y=e,this}setX(e){return this.x=e,this}setY(e){return this.y=e,this}setComponent(e,t){switch(e){case 0:this.x=t;break;case 1:this.y=t;break;default:throw new Error("THREE.Vector2: index is out of range: "+e)}return this}getComponent(e){switch(e){case 0:return this.x;case 1:return this.y;default:throw new Error("THREE.Vector2: index is out of range: "+e)}}clone(){return new this.constructor(this.x,this.y)}copy(e){return this.x=e.x,this.y=e.y,this}add(e){return this.x+=e.x,this.y+=e.y,this}addScalar(e){return this.x+=e,this.y+=e,this}addVectors(e,t){return this.x=e.x+t.x,this.y=e.y+t.y,this}addScaledVector(e,t){return this.x+=e.x*t,this.y+=e.y*t,this}sub(e){return this.x-=e.x,this.y-=e.y,this}subScalar(e){return this.x-=e,this.y-=e,this}subVectors(e,t){return this.x=e.x-t.x,this.y=e.y-t.y,this}multiply(e){return this.x*=e.x,this.y*=e.y,this}multiplyScalar(e){return this.x*=e,this.y*=e,this}divide(e){return this.x/=e.x,this.y/=e.y,this}divideScalar(e){return this.multiplyScalar(1/e)}applyMatrix3(e){let t=this.x,n=this.y,s=e.elements;return this.x=s[0]*t+s[3]*n+s[6],this.y=s[1]*t+s[4]*n+s[7],this}min(e){return this.x=Math.min(this.x,e.x),this.y=Math.min(this.y,e.y),this}max(e){return this.x=Math.max(this.x,e.x),this.y=Math.max(this.y,e.y),this}clamp(e,t){return this.x=xt(this.x,e.x,t.x),this.y=xt(this.y,e.y,t.y),this}clampScalar(e,t){return this.x=xt(this.x,e,t),this.y=xt(this.y,e,t),this}clampLength(e,t){let n=this.length();return this.divideScalar(n||1).multiplyScalar(xt(n,e,t))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this}negate(){return this.x=-this.x,this.y=-this.y,this}dot(e){return this.x*e.x+this.y*e.y}cross(e){return this.x*e.y-this.y*e.x}lengthSq(){return this.x*this.x+this.y*this.y}length(){return Math.sqrt(this.x*this.x+this.y*this.y)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)}normalize(){return this.divideScalar(this.length()||1)}angle(){return Math.atan2(-this.y,-this.x)+Math.PI}angleTo(e){let t=Math.sqrt(this.lengthSq()*e.lengthSq());if(t===0)return Math.PI/2;let n=this.dot(e)/t;return Math.acos(xt(n,-1,1))}distanceTo(e){return Math.sqrt(this.distanceToSquared(e))}distanceToSquared(e){let t=this.x-e.x,n=this.y-e.y;return t*t+n*n}manhattanDistanceTo(e){return Math.abs(this.x-e.x)+Math.abs(this.y-e.y)}setLength(e){return this.normalize().multiplyScalar(e)}lerp(e,t){return this.x+=(e.x-this.x)*t,this.y+=(e.y-this.y)*t,this}lerpVectors(e,t,n){return this.x=e.x+(t.x-e.x)*n,this.y=e.y+(t.y-e.y)*n,this}equals(e){return e.x===this.x&&e.y===this.y}fromArray(e,t=0){return this.x=e[t],this.y=e[t+1],this}toArray(e=[],t=0){return e[t]=this.x,e[t+1]=this.y,e}fromBufferAttribute(e,t){return this.x=e.getX(t),this.y=e.getY(t),this}rotateAround(e,t){let n=Math.cos(t),s=Math.sin(t),o=this.x-e.x,c=this.y-e.y;return this.x=o*n-c*s+e.x,this.y=o*s+c*n+e.y,this}random(){return this.x=Math.random(),this.y=Math.random(),this}*[Symbol.iterator](){yield this.x,yield this.y}},ti=class{constructor(e=0,t=0,n=0,s=1){this.isQuaternion=!0,this._x=e,this._y=t,this._z=n,this._w=s}static slerpFlat(e,t,n,s,o,c,h){let f=n[s+0],d=n[s+1],m=n[s+2],v=n[s+3],g=o[c+0],S=o[c+1],w=o[c+2],R=o[c+3];if(v!==R||f!==g||d!==S||m!==w){let x=f*g+d*S+m*w+v*R;x<0&&(g=-g,S=-S,w=-w,R=-R,x=-x);let y=1-h;if(x<.9995){let I=Math.acos(x),O=Math.sin(I);y=Math.sin(y*I)/O,h=Math.sin(h*I)/O,f=f*y+g*h,d=d*y+S*h,m=m*y+w*h,v=v*y+R*h}else{f=f*y+g*h,d=d*y+S*h,m=m*y+w*h,v=v*y+R*h;let I=1/Math.sqrt(f*f+d*d+m*m+v*v);f*=I,d*=I,m*=I,v*=I}}e[t]=f,e[t+1]=d,e[t+2]=m,e[t+3]=v}static multiplyQuaternionsFlat(e,t,n,s,o,c){let h=n[s],f=n[s+1],d=n[s+2],m=n[s+3],v=o[c],g=o[c+1],S=o[c+2],w=o[c+3];return e[t]=h*w+m*v+f*S-d*g,e[t+1]=f*w+m*g+d*v-h*S,e[t+2]=d*w+m*S+h*g-f*v,e[t+3]=m*w-h*v-f*g-d*S,e}get x(){return this._x}set x(e){this._x=e,this._onChangeCallback()}get y(){return this._y}set y(e){this._y=e,this._onChangeCallback()}get z(){return this._z}set z(e){this._z=e,this._onChangeCallback()}get w(){return this._w}set w(e){this._w=e,this._onChangeCallback()}set(e,t,n,s){return this._x=e,this._y=t,this._z=n,this._w=s,this._onChangeCallback(),this}clone(){return new this.constructor(this._x,this._y,this._z,this._w)}copy(e){return this._x=e.x,this._y=e.y,this._z=e.z,this._w=e.w,this._onChangeCallback(),this}setFromEuler(e,t=!0){let n=e._x,s=e._y,o=e._z,c=e._order,h=Math.cos,f=Math.sin,d=h(n/2),m=h(s/2),v=h(o/2),g=f(n/2),S=f(s/2),w=f(o/2);switch(c){case"XYZ":this._x=g*m*v+d*S*w,this._y=d*S*v-g*m*w,this._z=d*m*w+g*S*v,this._w=d*m*v-g*S*w;break;case"YXZ":this._x=g*m*v+d*S*w,this._y=d*S*v-g*m*w,this._z=d*m*w-g*S*v,this._w=d*m*v+g*S*w;break;case"ZXY":this._x=g*m*v-d*S*w,this._y=d*S*v+g*m*w,this._z=d*m*w+g*S*v,this._w=d*m*v-g*S*w;break;case"ZYX":this._x=g*m*v-d*S*w,this._y=d*S*v+g*m*w,this._z=d*m*w-g*S*v,this._w=d*m*v+g*S*w;break;case"YZX":this._x=g*m*v+d*S*w,this._y=d*S*v+g*m*w,this._z=d*m*w-g*S*v,this._w=d*m*v-g*S*w;break;case"XZY":this._x=g*m*v-d*S*w,this._y=d*S*v-g*m*w,this._z=d*m*w+g*S*v,this._w=d*m*v+g*S*w;break;default:et("Quaternion: .setFromEuler() encountered an unknown order: "+c)}return t===!0&&this._onChangeCallback(),this}setFromAxisAngle(e,t){let n=t/2,s=Math.sin(n);return this._x=e.x*s,this._y=e.y*s,this._z=e.z*s,this._w=Math.cos(n),this._onChangeCallback(),this}setFromRotationMatrix(e){let t=e.elements,n=t[0],s=t[4],o=t[8],c=t[1],h=t[5],f=t[9],d=t[2],m=t[6],v=t[10],g=n+h+v;if(g>0){let S=.5/Math.sqrt(g+1);this._w=.25/S,this._x=(m-f)*S,this._y=(o-d)*S,this._z=(c-s)*S}else if(n>h&&n>v){let S=2*Math.sqrt(1+n-h-v);this._w=(m-f)/S,this._x=.25*S,this._y=(s+c)/S,this._z=(o+d)/S}else if(h>v){let S=2*Math.sqrt(1+h-n-v);this._w=(o-d)/S,this._x=(s+c)/S,this._y=.25*S,this._z=(f+m)/S}else{let S=2*Math.sqrt(1+v-n-h);this._w=(c-s)/S,this._x=(o+d)/S,this._y=(f+m)/S,this._z=.25*S}return this._onChangeCallback(),this}setFromUnitVectors(e,t){let n=e.dot(t)+1;return n<1e-8?(n=0,Math.abs(e.x)>Math.abs(e.z)?(this._x=-e.y,this._y=e.x,this._z=0,this._w=n):(this._x=0,this._y=-e.z,this._z=e.y,this._w=n)):(this._x=e.y*t.z-e.z*t.y,this._y=e.z*t.x-e.x*t.z,this._z=e.x*t.y-e.y*t.x,this._w=n),this.normalize()}angleTo(e){return 2*Math.acos(Math.abs(xt(this.dot(e),-1,1)))}rotateTowards(e,t){let n=this.angleTo(e);if(n===0)return this;let s=Math.min(1,t/n);return this.slerp(e,s),this}identity(){return this.set(0,0,0,1)}invert(){return this.conjugate()}conjugate(){return this._x*=-1,this._y*=-1,this._z*=-1,this._onChangeCallback(),this}dot(e){return this._x*e._x+this._y*e._y+this._z*e._z+this._w*e._w}lengthSq(){return this._x*this._x+this._y*this._y+this._z*this._z+this._w*this._w}length(){return Math.sqrt(this._x*this._x+this._y*this._y+this._z*this._z+this._w*this._w)}normalize(){let e=this.length();return e===0?(this._x=0,this._y=0,this._z=0,this._w=1):(e=1/e,this._x=this._x*e,this._y=this._y*e,this._z=this._z*e,this._w=this._w*e),this._onChangeCallback(),this}multiply(e){return this.multiplyQuaternions(this,e)}premultiply(e){return this.multiplyQuaternions(e,this)}multiplyQuaternions(e,t){let n=e._x,s=e._y,o=e._z,c=e._w,h=t._x,f=t._y,d=t._z,m=t._w;return this._x=n*m+c*h+s*d-o*f,this._y=s*m+c*f+o*h-n*d,this._z=o*m+c*d+n*f-s*h,this._w=c*m-n*h-s*f-o*d,this._onChangeCallback(),this}slerp(e,t){let n=e._x,s=e._y,o=e._z,c=e._w,h=this.dot(e);h<0&&(n=-n,s=-s,o=-o,c=-c,h=-h);let f=1-t;if(h<.9995){let d=Math.acos(h),m=Math.sin(d);f=Math.sin(f*d)/m,t=Math.sin(t*d)/m,this._x=this._x*f+n*t,this._y=this._y*f+s*t,this._z=this._z*f+o*t,this._w=this._w*f+c*t,this._onChangeCallback()}else this._x=this._x*f+n*t,this._y=this._y*f+s*t,this._z=this._z*f+o*t,this._w=this._w*f+c*t,this.normalize();return this}slerpQuaternions(e,t,n){return this.copy(e).slerp(t,n)}random(){let e=2*Math.PI*Math.random(),t=2*Math.PI*Math.random(),n=Math.random(),s=Math.sqrt(1-n),o=Math.sqrt(n);return this.set(s*Math.sin(e),s*Math.cos(e),o*Math.sin(t),o*Math.cos(t))}equals(e){return e._x===this._x&&e._y===this._y&&e._z===this._z&&e._w===this._w}fromArray(e,t=0){return this._x=e[t],this._y=e[t+1],this._z=e[t+2],this._w=e[t+3],this._onChangeCallback(),this}toArray(e=[],t=0){return e[t]=this._x,e[t+1]=this._y,e[t+2]=this._z,e[t+3]=this._w,e}fromBufferAttribute(e,t){return this._x=e.getX(t),this._y=e.getY(t),this._z=e.getZ(t),this._w=e.getW(t),this._onChangeCallback(),this}toJSON(){return this.toArray()}_onChange(e){return this._onChangeCallback=e,this}_onChangeCallback(){}*[Symbol.iterator](){yield this._x,yield this._y,yield this._z,yield this._w}},Q=class{static{this.prototype.isVector3=!0}constructor(e=0,t=0,n=0){this.x=e,this.y=t,this.z=n}set(e,t,n){return n===void 0&&(n=this.z),this.x=e,this.y=t,this.z=n,this}setScalar(e){return this.x=e,this.y=e,this.z=e,this}setX(e){return this.x=e,this}setY(e){return this.y=e,this}setZ(e){return this.z=e,this}setComponent(e,t){switch(e){case 0:this.x=t;break;case 1:this.y=t;break;case 2:this.z=t;break;default:throw new Error("THREE.Vector3: index is out of range: "+e)}return this}getComponent(e){switch(e){case 0:return this.x;case 1:return this.y;case 2:return this.z;default:throw new Error("THREE.Vector3: index is out of range: "+e)}}clone(){return new this.constructor(this.x,this.y,this.z)}copy(e){return this.x=e.x,this.y=e.y,this.z=e.z,this}add(e){return this.x+=e.x,this.y+=e.y,this.z+=e.z,this}addScalar(e){return this.x+=e,this.y+=e,this.z+=e,this}addVectors(e,t){return this.x=e.x+t.x,this.y=e.y+t.y,this.z=e.z+t.z,this}addScaledVector(e,t){return this.x+=e.x*t,this.y+=e.y*t,this.z+=e.z*t,this}sub(e){return this.x-=e.x,this.y-=e.y,this.z-=e.z,this}subScalar(e){return this.x-=e,this.y-=e,this.z-=e,this}subVectors(e,t){return this.x=e.x-t.x,this.y=e.y-t.y,this.z=e.z-t.z,this}multiply(e){return this.x*=e.x,this.y*=e.y,this.z*=e.z,this}multiplyScalar(e){return this.x*=e,this.y*=e,this.z*=e,this}multiplyVectors(e,t){return this.x=e.x*t.x,this.y=e.y*t.y,this.z=e.z*t.z,this}applyEuler(e){return this.applyQuaternion(Oh.setFromEuler(e))}applyAxisAngle(e,t){return this.applyQuaternion(Oh.setFromAxisAngle(e,t))}applyMatrix3(e){let t=this.x,n=this.y,s=this.z,o=e.elements;return this.x=o[0]*t+o[3]*n+o[6]*s,this.y=o[1]*t+o[4]*n+o[7]*s,this.z=o[2]*t+o[5]*n+o[8]*s,this}applyNormalMatrix(e){return this.applyMatrix3(e).normalize()}applyMatrix4(e){let t=this.x,n=this.y,s=this.z,o=e.elements,c=1/(o[3]*t+o[7]*n+o[11]*s+o[15]);return this.x=(o[0]*t+o[4]*n+o[8]*s+o[12])*c,this.y=(o[1]*t+o[5]*n+o[9]*s+o[13])*c,this.z=(o[2]*t+o[6]*n+o[10]*s+o[14])*c,this}applyQuaternion(e){let t=this.x,n=this.y,s=this.z,o=e.x,c=e.y,h=e.z,f=e.w,d=2*(c*s-h*n),m=2*(h*t-o*s),v=2*(o*n-c*t);return this.x=t+f*d+c*v-h*m,this.y=n+f*m+h*d-o*v,this.z=s+f*v+o*m-c*d,this}project(e){return this.applyMatrix4(e.matrixWorldInverse).applyMatrix4(e.projectionMatrix)}unproject(e){return this.applyMatrix4(e.projectionMatrixInverse).applyMatrix4(e.matrixWorld)}transformDirection(e){let t=this.x,n=this.y,s=this.z,o=e.elements;return this.x=o[0]*t+o[4]*n+o[8]*s,this.y=o[1]*t+o[5]*n+o[9]*s,this.z=o[2]*t+o[6]*n+o[10]*s,this.normalize()}divide(e){return this.x/=e.x,this.y/=e.y,this.z/=e.z,this}divideScalar(e){return this.multiplyScalar(1/e)}min(e){return this.x=Math.min(this.x,e.x),this.y=Math.min(this.y,e.y),this.z=Math.min(this.z,e.z),this}max(e){return this.x=Math.max(this.x,e.x),this.y=Math.max(this.y,e.y),this.z=Math.max(this.z,e.z),this}clamp(e,t){return this.x=xt(this.x,e.x,t.x),this.y=xt(this.y,e.y,t.y),this.z=xt(this.z,e.z,t.z),this}clampScalar(e,t){return this.x=xt(this.x,e,t),this.y=xt(this.y,e,t),this.z=xt(this.z,e,t),this}clampLength(e,t){let n=this.length();return this.divideScalar(n||1).multiplyScalar(xt(n,e,t))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this.z=Math.floor(this.z),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this.z=Math.ceil(this.z),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this.z=Math.round(this.z),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this.z=Math.trunc(this.z),this}negate(){return this.x=-this.x,this.y=-this.y,this.z=-this.z,this}dot(e){return this.x*e.x+this.y*e.y+this.z*e.z}lengthSq(){return this.x*this.x+this.y*this.y+this.z*this.z}length(){return Math.sqrt(this.x*this.x+this.y*this.y+this.z*this.z)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)+Math.abs(this.z)}normalize(){return this.divideScalar(this.length()||1)}setLength(e){return this.normalize().multiplyScalar(e)}lerp(e,t){return this.x+=(e.x-this.x)*t,this.y+=(e.y-this.y)*t,this.z+=(e.z-this.z)*t,this}lerpVectors(e,t,n){return this.x=e.x+(t.x-e.x)*n,this.y=e.y+(t.y-e.y)*n,this.z=e.z+(t.z-e.z)*n,this}cross(e){return this.crossVectors(this,e)}crossVectors(e,t){let n=e.x,s=e.y,o=e.z,c=t.x,h=t.y,f=t.z;return this.x=s*f-o*h,this.y=o*c-n*f,this.z=n*h-s*c,this}projectOnVector(e){let t=e.lengthSq();if(t===0)return this.set(0,0,0);let n=e.dot(this)/t;return this.copy(e).multiplyScalar(n)}projectOnPlane(e){return bl.copy(this).projectOnVector(e),this.sub(bl)}reflect(e){return this.sub(bl.copy(e).multiplyScalar(2*this.dot(e)))}angleTo(e){let t=Math.sqrt(this.lengthSq()*e.lengthSq());if(t===0)return Math.PI/2;let n=this.dot(e)/t;return Math.acos(xt(n,-1,1))}distanceTo(e){return Math.sqrt(this.distanceToSquared(e))}distanceToSquared(e){let t=this.x-e.x,n=this.y-e.y,s=this.z-e.z;return t*t+n*n+s*s}manhattanDistanceTo(e){return Math.abs(this.x-e.x)+Math.abs(this.y-e.y)+Math.abs(this.z-e.z)}setFromSpherical(e){return this.setFromSphericalCoords(e.radius,e.phi,e.theta)}setFromSphericalCoords(e,t,n){let s=Math.sin(t)*e;return this.x=s*Math.sin(n),this.y=Math.cos(t)*e,this.z=s*Math.cos(n),this}setFromCylindrical(e){return this.setFromCylindricalCoords(e.radius,e.theta,e.y)}setFromCylindricalCoords(e,t,n){return this.x=e*Math.sin(t),this.y=n,this.z=e*Math.cos(t),this}setFromMatrixPosition(e){let t=e.elements;return this.x=t[12],this.y=t[13],this.z=t[14],this}setFromMatrixScale(e){let t=this.setFromMatrixColumn(e,0).length(),n=this.setFromMatrixColumn(e,1).length(),s=this.setFromMatrixColumn(e,2).length();return this.x=t,this.y=n,this.z=s,this}setFromMatrixColumn(e,t){return this.fromArray(e.elements,t*4)}setFromMatrix3Column(e,t){return this.fromArray(e.elements,t*3)}setFromEuler(e){return this.x=e._x,this.y=e._y,this.z=e._z,this}setFromColor(e){return this.x=e.r,this.y=e.g,this.z=e.b,this}equals(e){return e.x===this.x&&e.y===this.y&&e.z===this.z}fromArray(e,t=0){return this.x=e[t],this.y=e[t+1],this.z=e[t+2],this}toArray(e=[],t=0){return e[t]=this.x,e[t+1]=this.y,e[t+2]=this.z,e}fromBufferAttribute(e,t){return this.x=e.getX(t),this.y=e.getY(t),this.z=e.getZ(t),this}random(){return this.x=Math.random(),this.y=Math.random(),this.z=Math.random(),this}randomDirection(){let e=Math.random()*Math.PI*2,t=Math.random()*2-1,n=Math.sqrt(1-t*t);return this.x=n*Math.cos(e),this.y=t,this.z=n*Math.sin(e),this}*[Symbol.iterator](){yield this.x,yield this.y,yield this.z}},bl=new Q,Oh=new ti,at=class{static{this.prototype.isMatrix3=!0}constructor(e,t,n,s,o,c,h,f,d){this.elements=[1,0,0,0,1,0,0,0,1],e!==void 0&&this.set(e,t,n,s,o,c,h,f,d)}set(e,t,n,s,o,c,h,f,d){let m=this.elements;return m[0]=e,m[1]=s,m[2]=h,m[3]=t,m[4]=o,m[5]=f,m[6]=n,m[7]=c,m[8]=d,this}identity(){return this.set(1,0,0,0,1,0,0,0,1),this}copy(e){let t=this.elements,n=e.elements;return t[0]=n[0],t[1]=n[1],t[2]=n[2],t[3]=n[3],t[4]=n[4],t[5]=n[5],t[6]=n[6],t[7]=n[7],t[8]=n[8],this}extractBasis(e,t,n){return e.setFromMatrix3Column(this,0),t.setFromMatrix3Column(this,1),n.setFromMatrix3Column(this,2),this}setFromMatrix4(e){let t=e.elements;return this.set(t[0],t[4],t[8],t[1],t[5],t[9],t[2],t[6],t[10]),this}multiply(e){return this.multiplyMatrices(this,e)}premultiply(e){return this.multiplyMatrices(e,this)}multiplyMatrices(e,t){let n=e.elements,s=t.elements,o=this.elements,c=n[0],h=n[3],f=n[6],d=n[1],m=n[4],v=n[7],g=n[2],S=n[5],w=n[8],R=s[0],x=s[3],y=s[6],I=s[1],O=s[4],P=s[7],U=s[2],N=s[5],b=s[8];return o[0]=c*R+h*I+f*U,o[3]=c*x+h*O+f*N,o[6]=c*y+h*P+f*b,o[1]=d*R+m*I+v*U,o[4]=d*x+m*O+v*N,o[7]=d*y+m*P+v*b,o[2]=g*R+S*I+w*U,o[5]=g*x+S*O+w*N,o[8]=g*y+S*P+w*b,this}multiplyScalar(e){let t=this.elements;return t[0]*=e,t[3]*=e,t[6]*=e,t[1]*=e,t[4]*=e,t[7]*=e,t[2]*=e,t[5]*=e,t[8]*=e,this}determinant(){let e=this.elements,t=e[0],n=e[1],s=e[2],o=e[3],c=e[4],h=e[5],f=e[6],d=e[7],m=e[8];return t*c*m-t*h*d-n*o*m+n*h*f+s*o*d-s*c*f}invert(){let e=this.elements,t=e[0],n=e[1],s=e[2],o=e[3],c=e[4],h=e[5],f=e[6],d=e[7],m=e[8],v=m*c-h*d,g=h*f-m*o,S=d*o-c*f,w=t*v+n*g+s*S;if(w===0)return this.set(0,0,0,0,0,0,0,0,0);let R=1/w;return e[0]=v*R,e[1]=(s*d-m*n)*R,e[2]=(h*n-s*c)*R,e[3]=g*R,e[4]=(m*t-s*f)*R,e[5]=(s*o-h*t)*R,e[6]=S*R,e[7]=(n*f-d*t)*R,e[8]=(c*t-n*o)*R,this}transpose(){let e,t=this.elements;return e=t[1],t[1]=t[3],t[3]=e,e=t[2],t[2]=t[6],t[6]=e,e=t[5],t[5]=t[7],t[7]=e,this}getNormalMatrix(e){return this.setFromMatrix4(e).invert().transpose()}transposeIntoArray(e){let t=this.elements;return e[0]=t[0],e[1]=t[3],e[2]=t[6],e[3]=t[1],e[4]=t[4],e[5]=t[7],e[6]=t[2],e[7]=t[5],e[8]=t[8],this}setUvTransform(e,t,n,s,o,c,h){let f=Math.cos(o),d=Math.sin(o);return this.set(n*f,n*d,-n*(f*c+d*h)+c+e,-s*d,s*f,-s*(-d*c+f*h)+h+t,0,0,1),this}scale(e,t){return Qr("Matrix3: .scale() is deprecated. Use .makeScale() instead."),this.premultiply(wl.makeScale(e,t)),this}rotate(e){return Qr("Matrix3: .rotate() is deprecated. Use .makeRotation() instead."),this.premultiply(wl.makeRotation(-e)),this}translate(e,t){return Qr("Matrix3: .translate() is deprecated. Use .makeTranslation() instead."),this.premultiply(wl.makeTranslation(e,t)),this}makeTranslation(e,t){return e.isVector2?this.set(1,0,e.x,0,1,e.y,0,0,1):this.set(1,0,e,0,1,t,0,0,1),this}makeRotation(e){let t=Math.cos(e),n=Math.sin(e);return this.set(t,-n,0,n,t,0,0,0,1),this}makeScale(e,t){return this.set(e,0,0,0,t,0,0,0,1),this}equals(e){let t=this.elements,n=e.elements;for(let s=0;s<9;s++)if(t[s]!==n[s])return!1;return!0}fromArray(e,t=0){for(let n=0;n<9;n++)this.elements[n]=e[n+t];return this}toArray(e=[],t=0){let n=this.elements;return e[t]=n[0],e[t+1]=n[1],e[t+2]=n[2],e[t+3]=n[3],e[t+4]=n[4],e[t+5]=n[5],e[t+6]=n[6],e[t+7]=n[7],e[t+8]=n[8],e}clone(){return new this.constructor().fromArray(this.elements)}},wl=new at,Bh=new at().set(.4123908,.3575843,.1804808,.212639,.7151687,.0721923,.0193308,.1191948,.9505322),kh=new at().set(3.2409699,-1.5373832,-.4986108,-.9692436,1.8759675,.0415551,.0556301,-.203977,1.0569715);function c0(){let i={enabled:!0,workingColorSpace:is,spaces:{},convert:function(s,o,c){return this.enabled===!1||o===c||!o||!c||(this.spaces[o].transfer===Ct&&(s.r=pi(s.r),s.g=pi(s.g),s.b=pi(s.b)),this.spaces[o].primaries!==this.spaces[c].primaries&&(s.applyMatrix3(this.spaces[o].toXYZ),s.applyMatrix3(this.spaces[c].fromXYZ)),this.spaces[c].transfer===Ct&&(s.r=Mr(s.r),s.g=Mr(s.g),s.b=Mr(s.b))),s},workingToColorSpace:function(s,o){return this.convert(s,this.workingColorSpace,o)},colorSpaceToWorking:function(s,o){return this.convert(s,o,this.workingColorSpace)},getPrimaries:function(s){return this.spaces[s].primaries},getTransfer:function(s){return s===Si?rs:this.spaces[s].transfer},getToneMappingMode:function(s){return this.spaces[s].outputColorSpaceConfig.toneMappingMode||"standard"},getLuminanceCoefficients:function(s,o=this.workingColorSpace){return s.fromArray(this.spaces[o].luminanceCoefficients)},define:function(s){Object.assign(this.spaces,s)},_getMatrix:function(s,o,c){return s.copy(this.spaces[c].fromXYZ).multiply(this.spaces[o].toXYZ)},_getDrawingBufferColorSpace:function(s){return this.spaces[s].outputColorSpaceConfig.drawingBufferColorSpace},_getUnpackColorSpace:function(s=this.workingColorSpace){return this.spaces[s].workingColorSpaceConfig.unpackColorSpace}},e=[.64,.33,.3,.6,.15,.06],t=[.2126,.7152,.0722],n=[.3127,.329];return i.define({[is]:{primaries:e,whitePoint:n,transfer:rs,toXYZ:Bh,fromXYZ:kh,luminanceCoefficients:t,workingColorSpaceConfig:{unpackColorSpace:mn},outputColorSpaceConfig:{drawingBufferColorSpace:mn}},[mn]:{primaries:e,whitePoint:n,transfer:Ct,toXYZ:Bh,fromXYZ:kh,luminanceCoefficients:t,outputColorSpaceConfig:{drawingBufferColorSpace:mn}}}),i}var yt=c0();function pi(i){return i<.04045?i*.0773993808:Math.pow(i*.9478672986+.0521327014,2.4)}function Mr(i){return i<.0031308?i*12.92:1.055*Math.pow(i,.41666)-.055}var cr,Oa=class{static getDataURL(e,t="image/png"){if(/^data:/i.test(e.src)||typeof HTMLCanvasElement>"u")return e.src;let n;if(e instanceof HTMLCanvasElement)n=e;else{cr===void 0&&(cr=ss("canvas")),cr.width=e.width,cr.height=e.height;let s=cr.getContext("2d");e instanceof ImageData?s.putImageData(e,0,0):s.drawImage(e,0,0,e.width,e.height),n=cr}return n.toDataURL(t)}static sRGBToLinear(e){if(typeof HTMLImageElement<"u"&&e instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&e instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&e instanceof ImageBitmap){let t=ss("canvas");t.width=e.width,t.height=e.height;let n=t.getContext("2d");n.drawImage(e,0,0,e.width,e.height);let s=n.getImageData(0,0,e.width,e.height),o=s.data;for(let c=0;c<o.length;c++)o[c]=pi(o[c]/255)*255;return n.putImageData(s,0,0),t}else if(e.data){let t=e.data.slice(0);for(let n=0;n<t.length;n++)t instanceof Uint8Array||t instanceof Uint8ClampedArray?t[n]=Math.floor(pi(t[n]/255)*255):t[n]=pi(t[n]);return{data:t,width:e.width,height:e.height}}else return et("ImageUtils.sRGBToLinear(): Unsupported image type. No color space conversion applied."),e}},h0=0,Ar=class{constructor(e=null){this.isTextureSource=!0,Object.defineProperty(this,"id",{value:h0++}),this.uuid=kr(),this.data=e,this.dataReady=!0,this.version=0}getSize(e){let t=this.data;return typeof HTMLVideoElement<"u"&&t instanceof HTMLVideoElement?e.set(t.videoWidth,t.videoHeight,0):typeof VideoFrame<"u"&&t instanceof VideoFrame?e.set(t.displayWidth,t.displayHeight,0):t!==null?e.set(t.width||0,t.height||0,t.depth||0):e.set(0,0,0),e}set needsUpdate(e){e===!0&&this.version++}toJSON(e){let t=e===void 0||typeof e=="string";if(!t&&e.images[this.uuid]!==void 0)return e.images[this.uuid];let n={uuid:this.uuid,url:""},s=this.data;if(s!==null){let o;if(Array.isArray(s)){o=[];for(let c=0,h=s.length;c<h;c++)s[c].isDataTexture?o.push(El(s[c].image)):o.push(El(s[c]))}else o=El(s);n.url=o}return t||(e.images[this.uuid]=n),n}};function El(i){return typeof HTMLImageElement<"u"&&i instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&i instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&i instanceof ImageBitmap?Oa.getDataURL(i):i.data?{data:Array.from(i.data),width:i.width,height:i.height,type:i.data.constructor.name}:(et("Texture: Unable to serialize Texture."),{})}var u0=0,Tl=new Q,yn=class i extends ei{constructor(e=i.DEFAULT_IMAGE,t=i.DEFAULT_MAPPING,n=Kn,s=Kn,o=_n,c=yi,h=Hn,f=Sn,d=i.DEFAULT_ANISOTROPY,m=Si){super(),this.isTexture=!0,Object.defineProperty(this,"id",{value:u0++}),this.uuid=kr(),this.name="",this.source=new Ar(e),this.mipmaps=[],this.mapping=t,this.channel=0,this.wrapS=n,this.wrapT=s,this.magFilter=o,this.minFilter=c,this.anisotropy=d,this.format=h,this.internalFormat=null,this.type=f,this.offset=new gt(0,0),this.repeat=new gt(1,1),this.center=new gt(0,0),this.rotation=0,this.matrixAutoUpdate=!0,this.matrix=new at,this.generateMipmaps=!0,this.mipmapsAutoUpdate=!0,this.premultiplyAlpha=!1,this.flipY=!0,this.unpackAlignment=4,this.colorSpace=m,this.userData={},this.updateRanges=[],this.version=0,this.onUpdate=null,this.renderTarget=null,this.isRenderTargetTexture=!1,this.isArrayTexture=!!(e&&e.depth&&e.depth>1),this.pmremVersion=0,this.isPMREMTexture=!1,this.normalized=!1}get width(){return this.source.getSize(Tl).x}get height(){return this.source.getSize(Tl).y}get depth(){return this.source.getSize(Tl).z}get image(){return this.source.data}set image(e){this.source.data=e}updateMatrix(){this.matrix.setUvTransform(this.offset.x,this.offset.y,this.repeat.x,this.repeat.y,this.rotation,this.center.x,this.center.y)}addUpdateRange(e,t){this.updateRanges.push({start:e,count:t})}clearUpdateRanges(){this.updateRanges.length=0}clone(){return new this.constructor().copy(this)}copy(e){return this.name=e.name,this.source=e.source,this.mipmaps=e.mipmaps.slice(0),this.mapping=e.mapping,this.channel=e.channel,this.wrapS=e.wrapS,this.wrapT=e.wrapT,this.magFilter=e.magFilter,this.minFilter=e.minFilter,this.anisotropy=e.anisotropy,this.format=e.format,this.internalFormat=e.internalFormat,this.type=e.type,this.normalized=e.normalized,this.offset.copy(e.offset),this.repeat.copy(e.repeat),this.center.copy(e.center),this.rotation=e.rotation,this.matrixAutoUpdate=e.matrixAutoUpdate,this.matrix.copy(e.matrix),this.generateMipmaps=e.generateMipmaps,this.mipmapsAutoUpdate=e.mipmapsAutoUpdate,this.premultiplyAlpha=e.premultiplyAlpha,this.flipY=e.flipY,this.unpackAlignment=e.unpackAlignment,this.colorSpace=e.colorSpace,this.renderTarget=e.renderTarget,this.isRenderTargetTexture=e.isRenderTargetTexture,this.isPMREMTexture=e.isPMREMTexture,this.isArrayTexture=e.isArrayTexture,this.userData=JSON.parse(JSON.stringify(e.userData)),this.needsUpdate=!0,this}setValues(e){for(let t in e){let n=e[t];if(n===void 0){et(`Texture.setValues(): parameter '${t}' has value of undefined.`);continue}let s=this[t];if(s===void 0){et(`Texture.setValues(): property '${t}' does not exist.`);continue}s&&n&&s.isVector2&&n.isVector2||s&&n&&s.isVector3&&n.isVector3||s&&n&&s.isMatrix3&&n.isMatrix3?s.copy(n):this[t]=n}}toJSON(e){let t=e===void 0||typeof e=="string";if(!t&&e.textures[this.uuid]!==void 0)return e.textures[this.uuid];let n={metadata:{version:4.7,type:"Texture",generator:"Texture.toJSON"},uuid:this.uuid,name:this.name,image:this.source.toJSON(e).uuid,mapping:this.mapping,channel:this.channel,repeat:[this.repeat.x,this.repeat.y],offset:[this.offset.x,this.offset.y],center:[this.center.x,this.center.y],rotation:this.rotation,wrap:[this.wrapS,this.wrapT],format:this.format,internalFormat:this.internalFormat,type:this.type,normalized:this.normalized,colorSpace:this.colorSpace,minFilter:this.minFilter,magFilter:this.magFilter,anisotropy:this.anisotropy,flipY:this.flipY,generateMipmaps:this.generateMipmaps,mipmapsAutoUpdate:this.mipmapsAutoUpdate,premultiplyAlpha:this.premultiplyAlpha,unpackAlignment:this.unpackAlignment};return Object.keys(this.userData).length>0&&(n.userData=this.userData),t||(e.textures[this.uuid]=n),n}dispose(){this.dispatchEvent({type:"dispose"})}transformUv(e){if(this.mapping!==dc)return e;if(e.applyMatrix3(this.matrix),e.x<0||e.x>1)switch(this.wrapS){case Fa:e.x=e.x-Math.floor(e.x);break;case Kn:e.x=e.x<0?0:1;break;case Na:Math.abs(Math.floor(e.x)%2)===1?e.x=Math.ceil(e.x)-e.x:e.x=e.x-Math.floor(e.x);break}if(e.y<0||e.y>1)switch(this.wrapT){case Fa:e.y=e.y-Math.floor(e.y);break;case Kn:e.y=e.y<0?0:1;break;case Na:Math.abs(Math.floor(e.y)%2)===1?e.y=Math.ceil(e.y)-e.y:e.y=e.y-Math.floor(e.y);break}return this.flipY&&(e.y=1-e.y),e}set needsUpdate(e){e===!0&&(this.version++,this.source.needsUpdate=!0)}set needsPMREMUpdate(e){e===!0&&this.pmremVersion++}};yn.DEFAULT_IMAGE=null;yn.DEFAULT_MAPPING=dc;yn.DEFAULT_ANISOTROPY=1;var zt=class{static{this.prototype.isVector4=!0}constructor(e=0,t=0,n=0,s=1){this.x=e,this.y=t,this.z=n,this.w=s}get width(){return this.z}set width(e){this.z=e}get height(){return this.w}set height(e){this.w=e}set(e,t,n,s){return this.x=e,this.y=t,this.z=n,this.w=s,this}setScalar(e){return this.x=e,this.y=e,this.z=e,this.w=e,this}setX(e){return this.x=e,this}setY(e){return this.y=e,this}setZ(e){return this.z=e,this}setW(e){return this.w=e,this}setComponent(e,t){switch(e){case 0:this.x=t;break;case 1:this.y=t;break;case 2:this.z=t;break;case 3:this.w=t;break;default:throw new Error("THREE.Vector4: index is out of range: "+e)}return this}getComponent(e){switch(e){case 0:return this.x;case 1:return this.y;case 2:return this.z;case 3:return this.w;default:throw new Error("THREE.Vector4: index is out of range: "+e)}}clone(){return new this.constructor(this.x,this.y,this.z,this.w)}copy(e){return this.x=e.x,this.y=e.y,this.z=e.z,this.w=e.w!==void 0?e.w:1,this}add(e){return this.x+=e.x,this.y+=e.y,this.z+=e.z,this.w+=e.w,this}addScalar(e){return this.x+=e,this.y+=e,this.z+=e,this.w+=e,this}addVectors(e,t){return this.x=e.x+t.x,this.y=e.y+t.y,this.z=e.z+t.z,this.w=e.w+t.w,this}addScaledVector(e,t){return this.x+=e.x*t,this.y+=e.y*t,this.z+=e.z*t,this.w+=e.w*t,this}sub(e){return this.x-=e.x,this.y-=e.y,this.z-=e.z,this.w-=e.w,this}subScalar(e){return this.x-=e,this.y-=e,this.z-=e,this.w-=e,this}subVectors(e,t){return this.x=e.x-t.x,this.y=e.y-t.y,this.z=e.z-t.z,this.w=e.w-t.w,this}multiply(e){return this.x*=e.x,this.y*=e.y,this.z*=e.z,this.w*=e.w,this}multiplyScalar(e){return this.x*=e,this.y*=e,this.z*=e,this.w*=e,this}applyMatrix4(e){let t=this.x,n=this.y,s=this.z,o=this.w,c=e.elements;return this.x=c[0]*t+c[4]*n+c[8]*s+c[12]*o,this.y=c[1]*t+c[5]*n+c[9]*s+c[13]*o,this.z=c[2]*t+c[6]*n+c[10]*s+c[14]*o,this.w=c[3]*t+c[7]*n+c[11]*s+c[15]*o,this}divide(e){return this.x/=e.x,this.y/=e.y,this.z/=e.z,this.w/=e.w,this}divideScalar(e){return this.multiplyScalar(1/e)}setAxisAngleFromQuaternion(e){this.w=2*Math.acos(e.w);let t=Math.sqrt(1-e.w*e.w);return t<1e-4?(this.x=1,this.y=0,this.z=0):(this.x=e.x/t,this.y=e.y/t,this.z=e.z/t),this}setAxisAngleFromRotationMatrix(e){let t,n,s,o,f=e.elements,d=f[0],m=f[4],v=f[8],g=f[1],S=f[5],w=f[9],R=f[2],x=f[6],y=f[10];if(Math.abs(m-g)<.01&&Math.abs(v-R)<.01&&Math.abs(w-x)<.01){if(Math.abs(m+g)<.1&&Math.abs(v+R)<.1&&Math.abs(w+x)<.1&&Math.abs(d+S+y-3)<.1)return this.set(1,0,0,0),this;t=Math.PI;let O=(d+1)/2,P=(S+1)/2,U=(y+1)/2,N=(m+g)/4,b=(v+R)/4,L=(w+x)/4;return O>P&&O>U?O<.01?(n=0,s=.707106781,o=.707106781):(n=Math.sqrt(O),s=N/n,o=b/n):P>U?P<.01?(n=.707106781,s=0,o=.707106781):(s=Math.sqrt(P),n=N/s,o=L/s):U<.01?(n=.707106781,s=.707106781,o=0):(o=Math.sqrt(U),n=b/o,s=L/o),this.set(n,s,o,t),this}let I=Math.sqrt((x-w)*(x-w)+(v-R)*(v-R)+(g-m)*(g-m));return Math.abs(I)<.001&&(I=1),this.x=(x-w)/I,this.y=(v-R)/I,this.z=(g-m)/I,this.w=Math.acos((d+S+y-1)/2),this}setFromMatrixPosition(e){let t=e.elements;return this.x=t[12],this.y=t[13],this.z=t[14],this.w=t[15],this}min(e){return this.x=Math.min(this.x,e.x),this.y=Math.min(this.y,e.y),this.z=Math.min(this.z,e.z),this.w=Math.min(this.w,e.w),this}max(e){return this.x=Math.max(this.x,e.x),this.y=Math.max(this.y,e.y),this.z=Math.max(this.z,e.z),this.w=Math.max(this.w,e.w),this}clamp(e,t){return this.x=xt(this.x,e.x,t.x),this.y=xt(this.y,e.y,t.y),this.z=xt(this.z,e.z,t.z),this.w=xt(this.w,e.w,t.w),this}clampScalar(e,t){return this.x=xt(this.x,e,t),this.y=xt(this.y,e,t),this.z=xt(this.z,e,t),this.w=xt(this.w,e,t),this}clampLength(e,t){let n=this.length();return this.divideScalar(n||1).multiplyScalar(xt(n,e,t))}floor(){return this.x=Math.floor(this.x),this.y=Math.floor(this.y),this.z=Math.floor(this.z),this.w=Math.floor(this.w),this}ceil(){return this.x=Math.ceil(this.x),this.y=Math.ceil(this.y),this.z=Math.ceil(this.z),this.w=Math.ceil(this.w),this}round(){return this.x=Math.round(this.x),this.y=Math.round(this.y),this.z=Math.round(this.z),this.w=Math.round(this.w),this}roundToZero(){return this.x=Math.trunc(this.x),this.y=Math.trunc(this.y),this.z=Math.trunc(this.z),this.w=Math.trunc(this.w),this}negate(){return this.x=-this.x,this.y=-this.y,this.z=-this.z,this.w=-this.w,this}dot(e){return this.x*e.x+this.y*e.y+this.z*e.z+this.w*e.w}lengthSq(){return this.x*this.x+this.y*this.y+this.z*this.z+this.w*this.w}length(){return Math.sqrt(this.x*this.x+this.y*this.y+this.z*this.z+this.w*this.w)}manhattanLength(){return Math.abs(this.x)+Math.abs(this.y)+Math.abs(this.z)+Math.abs(this.w)}normalize(){return this.divideScalar(this.length()||1)}setLength(e){return this.normalize().multiplyScalar(e)}lerp(e,t){return this.x+=(e.x-this.x)*t,this.y+=(e.y-this.y)*t,this.z+=(e.z-this.z)*t,this.w+=(e.w-this.w)*t,this}lerpVectors(e,t,n){return this.x=e.x+(t.x-e.x)*n,this.y=e.y+(t.y-e.y)*n,this.z=e.z+(t.z-e.z)*n,this.w=e.w+(t.w-e.w)*n,this}equals(e){return e.x===this.x&&e.y===this.y&&e.z===this.z&&e.w===this.w}fromArray(e,t=0){return this.x=e[t],this.y=e[t+1],this.z=e[t+2],this.w=e[t+3],this}toArray(e=[],t=0){return e[t]=this.x,e[t+1]=this.y,e[t+2]=this.z,e[t+3]=this.w,e}fromBufferAttribute(e,t){return this.x=e.getX(t),this.y=e.getY(t),this.z=e.getZ(t),this.w=e.getW(t),this}random(){return this.x=Math.random(),this.y=Math.random(),this.z=Math.random(),this.w=Math.random(),this}*[Symbol.iterator](){yield this.x,yield this.y,yield this.z,yield this.w}},Ba=class extends ei{constructor(e=1,t=1,n={}){super(),n=Object.assign({generateMipmaps:!1,internalFormat:null,minFilter:_n,depthBuffer:!0,stencilBuffer:!1,resolveColorBuffer:!0,resolveDepthBuffer:!0,resolveStencilBuffer:!0,storeMultisampledColorBuffer:!0,storeMultisampledDepthBuffer:!0,storeMultisampledStencilBuffer:!0,depthTexture:null,samples:0,count:1,depth:1,multiview:!1,useArrayDepthTexture:!1},n),this.isRenderTarget=!0,this.width=e,this.height=t,this.depth=n.depth,this.scissor=new zt(0,0,e,t),this.scissorTest=!1,this.viewport=new zt(0,0,e,t),this.textures=[];let s=n.count;for(let o=0;o<s;o++)this.textures[o]=new yn({width:e,height:t,depth:n.depth}),this.textures[o].isRenderTargetTexture=!0,this.textures[o].renderTarget=this;this._setTextureOptions(n),this.depthBuffer=n.depthBuffer,this.stencilBuffer=n.stencilBuffer,this.resolveColorBuffer=n.resolveColorBuffer,this.resolveDepthBuffer=n.resolveDepthBuffer,this.resolveStencilBuffer=n.resolveStencilBuffer,this.storeMultisampledColorBuffer=n.storeMultisampledColorBuffer,this.storeMultisampledDepthBuffer=n.storeMultisampledDepthBuffer,this.storeMultisampledStencilBuffer=n.storeMultisampledStencilBuffer,this._depthTexture=null,this.depthTexture=n.depthTexture,this.samples=n.samples,this.multiview=n.multiview,this.useArrayDepthTexture=n.useArrayDepthTexture}_setTextureOptions(e={}){let t={minFilter:_n,generateMipmaps:!1,flipY:!1,internalFormat:null};e.mapping!==void 0&&(t.mapping=e.mapping),e.wrapS!==void 0&&(t.wrapS=e.wrapS),e.wrapT!==void 0&&(t.wrapT=e.wrapT),e.wrapR!==void 0&&(t.wrapR=e.wrapR),e.magFilter!==void 0&&(t.magFilter=e.magFilter),e.minFilter!==void 0&&(t.minFilter=e.minFilter),e.format!==void 0&&(t.format=e.format),e.type!==void 0&&(t.type=e.type),e.anisotropy!==void 0&&(t.anisotropy=e.anisotropy),e.colorSpace!==void 0&&(t.colorSpace=e.colorSpace),e.flipY!==void 0&&(t.flipY=e.flipY),e.generateMipmaps!==void 0&&(t.generateMipmaps=e.generateMipmaps),e.mipmapsAutoUpdate!==void 0&&(t.mipmapsAutoUpdate=e.mipmapsAutoUpdate),e.internalFormat!==void 0&&(t.internalFormat=e.internalFormat);for(let n=0;n<this.textures.length;n++)this.textures[n].setValues(t)}get texture(){return this.textures[0]}set texture(e){this.textures[0]=e}set depthTexture(e){this._depthTexture!==null&&this._depthTexture.renderTarget===this&&(this._depthTexture.renderTarget=null),e!==null&&e.renderTarget===null&&(e.renderTarget=this),this._depthTexture=e}get depthTexture(){return this._depthTexture}setSize(e,t,n=1){if(this.width!==e||this.height!==t||this.depth!==n){this.width=e,this.height=t,this.depth=n;for(let s=0,o=this.textures.length;s<o;s++)this.textures[s].image.width=e,this.textures[s].image.height=t,this.textures[s].image.depth=n,this.textures[s].isData3DTexture!==!0&&(this.textures[s].isArrayTexture=this.textures[s].image.depth>1);this.dispose()}this.viewport.set(0,0,e,t),this.scissor.set(0,0,e,t)}clone(){return new this.constructor().copy(this)}copy(e){this.width=e.width,this.height=e.height,this.depth=e.depth,this.scissor.copy(e.scissor),this.scissorTest=e.scissorTest,this.viewport.copy(e.viewport),this.textures.length=0;for(let t=0,n=e.textures.length;t<n;t++){this.textures[t]=e.textures[t].clone(),this.textures[t].isRenderTargetTexture=!0,this.textures[t].renderTarget=this;let s=Object.assign({},e.textures[t].image);this.textures[t].source=new Ar(s)}if(this.depthBuffer=e.depthBuffer,this.stencilBuffer=e.stencilBuffer,this.resolveColorBuffer=e.resolveColorBuffer,this.resolveDepthBuffer=e.resolveDepthBuffer,this.resolveStencilBuffer=e.resolveStencilBuffer,this.storeMultisampledColorBuffer=e.storeMultisampledColorBuffer,this.storeMultisampledDepthBuffer=e.storeMultisampledDepthBuffer,this.storeMultisampledStencilBuffer=e.storeMultisampledStencilBuffer,e.depthTexture!==null)if(e.depthTexture.renderTarget===e){let t=e.depthTexture.clone();t.renderTarget=null,this.depthTexture=t}else this.depthTexture=e.depthTexture;else this.depthTexture=null;return this.samples=e.samples,this.multiview=e.multiview,this.useArrayDepthTexture=e.useArrayDepthTexture,this}dispose(){this.dispatchEvent({type:"dispose"})}},En=class extends Ba{constructor(e=1,t=1,n={}){super(e,t,n),this.isWebGLRenderTarget=!0}},as=class extends yn{constructor(e=null,t=1,n=1,s=1){super(null),this.isDataArrayTexture=!0,this.image={data:e,width:t,height:n,depth:s},this.magFilter=sn,this.minFilter=sn,this.wrapR=Kn,this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1,this.layerUpdates=new Set}copy(e){return super.copy(e),this.wrapR=e.wrapR,this}addLayerUpdate(e){this.layerUpdates.add(e)}clearLayerUpdates(){this.layerUpdates.clear()}};var ka=class extends yn{constructor(e=null,t=1,n=1,s=1){super(null),this.isData3DTexture=!0,this.image={data:e,width:t,height:n,depth:s},this.magFilter=sn,this.minFilter=sn,this.wrapR=Kn,this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1}copy(e){return super.copy(e),this.wrapR=e.wrapR,this}};var It=class i{static{this.prototype.isMatrix4=!0}constructor(e,t,n,s,o,c,h,f,d,m,v,g,S,w,R,x){this.elements=[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],e!==void 0&&this.set(e,t,n,s,o,c,h,f,d,m,v,g,S,w,R,x)}set(e,t,n,s,o,c,h,f,d,m,v,g,S,w,R,x){let y=this.elements;return y[0]=e,y[4]=t,y[8]=n,y[12]=s,y[1]=o,y[5]=c,y[9]=h,y[13]=f,y[2]=d,y[6]=m,y[10]=v,y[14]=g,y[3]=S,y[7]=w,y[11]=R,y[15]=x,this}identity(){return this.set(1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1),this}clone(){return new i().fromArray(this.elements)}copy(e){let t=this.elements,n=e.elements;return t[0]=n[0],t[1]=n[1],t[2]=n[2],t[3]=n[3],t[4]=n[4],t[5]=n[5],t[6]=n[6],t[7]=n[7],t[8]=n[8],t[9]=n[9],t[10]=n[10],t[11]=n[11],t[12]=n[12],t[13]=n[13],t[14]=n[14],t[15]=n[15],this}copyPosition(e){let t=this.elements,n=e.elements;return t[12]=n[12],t[13]=n[13],t[14]=n[14],this}setFromMatrix3(e){let t=e.elements;return this.set(t[0],t[3],t[6],0,t[1],t[4],t[7],0,t[2],t[5],t[8],0,0,0,0,1),this}extractBasis(e,t,n){return this.determinantAffine()===0?(e.set(1,0,0),t.set(0,1,0),n.set(0,0,1),this):(e.setFromMatrixColumn(this,0),t.setFromMatrixColumn(this,1),n.setFromMatrixColumn(this,2),this)}makeBasis(e,t,n){return this.set(e.x,t.x,n.x,0,e.y,t.y,n.y,0,e.z,t.z,n.z,0,0,0,0,1),this}extractRotation(e){if(e.determinantAffine()===0)return this.identity();let t=this.elements,n=e.elements,s=1/hr.setFromMatrixColumn(e,0).length(),o=1/hr.setFromMatrixColumn(e,1).length(),c=1/hr.setFromMatrixColumn(e,2).length();return t[0]=n[0]*s,t[1]=n[1]*s,t[2]=n[2]*s,t[3]=0,t[4]=n[4]*o,t[5]=n[5]*o,t[6]=n[6]*o,t[7]=0,t[8]=n[8]*c,t[9]=n[9]*c,t[10]=n[10]*c,t[11]=0,t[12]=0,t[13]=0,t[14]=0,t[15]=1,this}makeRotationFromEuler(e){let t=this.elements,n=e.x,s=e.y,o=e.z,c=Math.cos(n),h=Math.sin(n),f=Math.cos(s),d=Math.sin(s),m=Math.cos(o),v=Math.sin(o);if(e.order==="XYZ"){let g=c*m,S=c*v,w=h*m,R=h*v;t[0]=f*m,t[4]=-f*v,t[8]=d,t[1]=S+w*d,t[5]=g-R*d,t[9]=-h*f,t[2]=R-g*d,t[6]=w+S*d,t[10]=c*f}else if(e.order==="YXZ"){let g=f*m,S=f*v,w=d*m,R=d*v;t[0]=g+R*h,t[4]=w*h-S,t[8]=c*d,t[1]=c*v,t[5]=c*m,t[9]=-h,t[2]=S*h-w,t[6]=R+g*h,t[10]=c*f}else if(e.order==="ZXY"){let g=f*m,S=f*v,w=d*m,R=d*v;t[0]=g-R*h,t[4]=-c*v,t[8]=w+S*h,t[1]=S+w*h,t[5]=c*m,t[9]=R-g*h,t[2]=-c*d,t[6]=h,t[10]=c*f}else if(e.order==="ZYX"){let g=c*m,S=c*v,w=h*m,R=h*v;t[0]=f*m,t[4]=w*d-S,t[8]=g*d+R,t[1]=f*v,t[5]=R*d+g,t[9]=S*d-w,t[2]=-d,t[6]=h*f,t[10]=c*f}else if(e.order==="YZX"){let g=c*f,S=c*d,w=h*f,R=h*d;t[0]=f*m,t[4]=R-g*v,t[8]=w*v+S,t[1]=v,t[5]=c*m,t[9]=-h*m,t[2]=-d*m,t[6]=S*v+w,t[10]=g-R*v}else if(e.order==="XZY"){let g=c*f,S=c*d,w=h*f,R=h*d;t[0]=f*m,t[4]=-v,t[8]=d*m,t[1]=g*v+R,t[5]=c*m,t[9]=S*v-w,t[2]=w*v-S,t[6]=h*m,t[10]=R*v+g}return t[3]=0,t[7]=0,t[11]=0,t[12]=0,t[13]=0,t[14]=0,t[15]=1,this}makeRotationFromQuaternion(e){return this.compose(d0,e,f0)}lookAt(e,t,n){let s=this.elements;return bn.subVectors(e,t),bn.lengthSq()===0&&(bn.z=1),bn.normalize(),bi.crossVectors(n,bn),bi.lengthSq()===0&&(Math.abs(n.z)===1?bn.x+=1e-4:bn.z+=1e-4,bn.normalize(),bi.crossVectors(n,bn)),bi.normalize(),ia.crossVectors(bn,bi),s[0]=bi.x,s[4]=ia.x,s[8]=bn.x,s[1]=bi.y,s[5]=ia.y,s[9]=bn.y,s[2]=bi.z,s[6]=ia.z,s[10]=bn.z,this}multiply(e){return this.multiplyMatrices(this,e)}premultiply(e){return this.multiplyMatrices(e,this)}multiplyMatrices(e,t){let n=e.elements,s=t.elements,o=this.elements,c=n[0],h=n[4],f=n[8],d=n[12],m=n[1],v=n[5],g=n[9],S=n[13],w=n[2],R=n[6],x=n[10],y=n[14],I=n[3],O=n[7],P=n[11],U=n[15],N=s[0],b=s[4],L=s[8],q=s[12],k=s[1],Y=s[5],J=s[9],ee=s[13],z=s[2],ie=s[6],G=s[10],ne=s[14],Se=s[3],re=s[7],H=s[11],me=s[15];return o[0]=c*N+h*k+f*z+d*Se,o[4]=c*b+h*Y+f*ie+d*re,o[8]=c*L+h*J+f*G+d*H,o[12]=c*q+h*ee+f*ne+d*me,o[1]=m*N+v*k+g*z+S*Se,o[5]=m*b+v*Y+g*ie+S*re,o[9]=m*L+v*J+g*G+S*H,o[13]=m*q+v*ee+g*ne+S*me,o[2]=w*N+R*k+x*z+y*Se,o[6]=w*b+R*Y+x*ie+y*re,o[10]=w*L+R*J+x*G+y*H,o[14]=w*q+R*ee+x*ne+y*me,o[3]=I*N+O*k+P*z+U*Se,o[7]=I*b+O*Y+P*ie+U*re,o[11]=I*L+O*J+P*G+U*H,o[15]=I*q+O*ee+P*ne+U*me,this}multiplyScalar(e){let t=this.elements;return t[0]*=e,t[4]*=e,t[8]*=e,t[12]*=e,t[1]*=e,t[5]*=e,t[9]*=e,t[13]*=e,t[2]*=e,t[6]*=e,t[10]*=e,t[14]*=e,t[3]*=e,t[7]*=e,t[11]*=e,t[15]*=e,this}determinant(){let e=this.elements,t=e[0],n=e[4],s=e[8],o=e[12],c=e[1],h=e[5],f=e[9],d=e[13],m=e[2],v=e[6],g=e[10],S=e[14],w=e[3],R=e[7],x=e[11],y=e[15],I=f*S-d*g,O=h*S-d*v,P=h*g-f*v,U=c*S-d*m,N=c*g-f*m,b=c*v-h*m;return t*(R*I-x*O+y*P)-n*(w*I-x*U+y*N)+s*(w*O-R*U+y*b)-o*(w*P-R*N+x*b)}determinantAffine(){let e=this.elements,t=e[0],n=e[4],s=e[8],o=e[1],c=e[5],h=e[9],f=e[2],d=e[6],m=e[10];return t*(c*m-h*d)-n*(o*m-h*f)+s*(o*d-c*f)}transpose(){let e=this.elements,t;return t=e[1],e[1]=e[4],e[4]=t,t=e[2],e[2]=e[8],e[8]=t,t=e[6],e[6]=e[9],e[9]=t,t=e[3],e[3]=e[12],e[12]=t,t=e[7],e[7]=e[13],e[13]=t,t=e[11],e[11]=e[14],e[14]=t,this}setPosition(e,t,n){let s=this.elements;return e.isVector3?(s[12]=e.x,s[13]=e.y,s[14]=e.z):(s[12]=e,s[13]=t,s[14]=n),this}invert(){let e=this.elements,t=e[0],n=e[1],s=e[2],o=e[3],c=e[4],h=e[5],f=e[6],d=e[7],m=e[8],v=e[9],g=e[10],S=e[11],w=e[12],R=e[13],x=e[14],y=e[15],I=t*h-n*c,O=t*f-s*c,P=t*d-o*c,U=n*f-s*h,N=n*d-o*h,b=s*d-o*f,L=m*R-v*w,q=m*x-g*w,k=m*y-S*w,Y=v*x-g*R,J=v*y-S*R,ee=g*y-S*x,z=I*ee-O*J+P*Y+U*k-N*q+b*L;if(z===0)return this.set(0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0);let ie=1/z;return e[0]=(h*ee-f*J+d*Y)*ie,e[1]=(s*J-n*ee-o*Y)*ie,e[2]=(R*b-x*N+y*U)*ie,e[3]=(g*N-v*b-S*U)*ie,e[4]=(f*k-c*ee-d*q)*ie,e[5]=(t*ee-s*k+o*q)*ie,e[6]=(x*P-w*b-y*O)*ie,e[7]=(m*b-g*P+S*O)*ie,e[8]=(c*J-h*k+d*L)*ie,e[9]=(n*k-t*J-o*L)*ie,e[10]=(w*N-R*P+y*I)*ie,e[11]=(v*P-m*N-S*I)*ie,e[12]=(h*q-c*Y-f*L)*ie,e[13]=(t*Y-n*q+s*L)*ie,e[14]=(R*O-w*U-x*I)*ie,e[15]=(m*U-v*O+g*I)*ie,this}scale(e){let t=this.elements,n=e.x,s=e.y,o=e.z;return t[0]*=n,t[4]*=s,t[8]*=o,t[1]*=n,t[5]*=s,t[9]*=o,t[2]*=n,t[6]*=s,t[10]*=o,t[3]*=n,t[7]*=s,t[11]*=o,this}getMaxScaleOnAxis(){let e=this.elements,t=e[0]*e[0]+e[1]*e[1]+e[2]*e[2],n=e[4]*e[4]+e[5]*e[5]+e[6]*e[6],s=e[8]*e[8]+e[9]*e[9]+e[10]*e[10];return Math.sqrt(Math.max(t,n,s))}makeTranslation(e,t,n){return e.isVector3?this.set(1,0,0,e.x,0,1,0,e.y,0,0,1,e.z,0,0,0,1):this.set(1,0,0,e,0,1,0,t,0,0,1,n,0,0,0,1),this}makeRotationX(e){let t=Math.cos(e),n=Math.sin(e);return this.set(1,0,0,0,0,t,-n,0,0,n,t,0,0,0,0,1),this}makeRotationY(e){let t=Math.cos(e),n=Math.sin(e);return this.set(t,0,n,0,0,1,0,0,-n,0,t,0,0,0,0,1),this}makeRotationZ(e){let t=Math.cos(e),n=Math.sin(e);return this.set(t,-n,0,0,n,t,0,0,0,0,1,0,0,0,0,1),this}makeRotationAxis(e,t){let n=Math.cos(t),s=Math.sin(t),o=1-n,c=e.x,h=e.y,f=e.z,d=o*c,m=o*h;return this.set(d*c+n,d*h-s*f,d*f+s*h,0,d*h+s*f,m*h+n,m*f-s*c,0,d*f-s*h,m*f+s*c,o*f*f+n,0,0,0,0,1),this}makeScale(e,t,n){return this.set(e,0,0,0,0,t,0,0,0,0,n,0,0,0,0,1),this}makeShear(e,t,n,s,o,c){return this.set(1,n,o,0,e,1,c,0,t,s,1,0,0,0,0,1),this}compose(e,t,n){let s=this.elements,o=t._x,c=t._y,h=t._z,f=t._w,d=o+o,m=c+c,v=h+h,g=o*d,S=o*m,w=o*v,R=c*m,x=c*v,y=h*v,I=f*d,O=f*m,P=f*v,U=n.x,N=n.y,b=n.z;return s[0]=(1-(R+y))*U,s[1]=(S+P)*U,s[2]=(w-O)*U,s[3]=0,s[4]=(S-P)*N,s[5]=(1-(g+y))*N,s[6]=(x+I)*N,s[7]=0,s[8]=(w+O)*b,s[9]=(x-I)*b,s[10]=(1-(g+R))*b,s[11]=0,s[12]=e.x,s[13]=e.y,s[14]=e.z,s[15]=1,this}decompose(e,t,n){let s=this.elements;e.x=s[12],e.y=s[13],e.z=s[14];let o=this.determinantAffine();if(o===0)return n.set(1,1,1),t.identity(),this;let c=hr.set(s[0],s[1],s[2]).length(),h=hr.set(s[4],s[5],s[6]).length(),f=hr.set(s[8],s[9],s[10]).length();o<0&&(c=-c),Un.copy(this);let d=1/c,m=1/h,v=1/f;return Un.elements[0]*=d,Un.elements[1]*=d,Un.elements[2]*=d,Un.elements[4]*=m,Un.elements[5]*=m,Un.elements[6]*=m,Un.elements[8]*=v,Un.elements[9]*=v,Un.elements[10]*=v,t.setFromRotationMatrix(Un),n.x=c,n.y=h,n.z=f,this}makePerspective(e,t,n,s,o,c,h=In,f=!1){let d=this.elements,m=2*o/(t-e),v=2*o/(n-s),g=(t+e)/(t-e),S=(n+s)/(n-s),w,R;if(f)w=o/(c-o),R=c*o/(c-o);else if(h===In)w=-(c+o)/(c-o),R=-2*c*o/(c-o);else if(h===wr)w=-c/(c-o),R=-c*o/(c-o);else throw new Error("THREE.Matrix4.makePerspective(): Invalid coordinate system: "+h);return d[0]=m,d[4]=0,d[8]=g,d[12]=0,d[1]=0,d[5]=v,d[9]=S,d[13]=0,d[2]=0,d[6]=0,d[10]=w,d[14]=R,d[3]=0,d[7]=0,d[11]=-1,d[15]=0,this}makeOrthographic(e,t,n,s,o,c,h=In,f=!1){let d=this.elements,m=2/(t-e),v=2/(n-s),g=-(t+e)/(t-e),S=-(n+s)/(n-s),w,R;if(f)w=1/(c-o),R=c/(c-o);else if(h===In)w=-2/(c-o),R=-(c+o)/(c-o);else if(h===wr)w=-1/(c-o),R=-o/(c-o);else throw new Error("THREE.Matrix4.makeOrthographic(): Invalid coordinate system: "+h);return d[0]=m,d[4]=0,d[8]=0,d[12]=g,d[1]=0,d[5]=v,d[9]=0,d[13]=S,d[2]=0,d[6]=0,d[10]=w,d[14]=R,d[3]=0,d[7]=0,d[11]=0,d[15]=1,this}equals(e){let t=this.elements,n=e.elements;for(let s=0;s<16;s++)if(t[s]!==n[s])return!1;return!0}fromArray(e,t=0){for(let n=0;n<16;n++)this.elements[n]=e[n+t];return this}toArray(e=[],t=0){let n=this.elements;return e[t]=n[0],e[t+1]=n[1],e[t+2]=n[2],e[t+3]=n[3],e[t+4]=n[4],e[t+5]=n[5],e[t+6]=n[6],e[t+7]=n[7],e[t+8]=n[8],e[t+9]=n[9],e[t+10]=n[10],e[t+11]=n[11],e[t+12]=n[12],e[t+13]=n[13],e[t+14]=n[14],e[t+15]=n[15],e}},hr=new Q,Un=new It,d0=new Q(0,0,0),f0=new Q(1,1,1),bi=new Q,ia=new Q,bn=new Q,zh=new It,Gh=new ti,gi=class i{constructor(e=0,t=0,n=0,s=i.DEFAULT_ORDER){this.isEuler=!0,this._x=e,this._y=t,this._z=n,this._order=s}get x(){return this._x}set x(e){this._x=e,this._onChangeCallback()}get y(){return this._y}set y(e){this._y=e,this._onChangeCallback()}get z(){return this._z}set z(e){this._z=e,this._onChangeCallback()}get order(){return this._order}set order(e){this._order=e,this._onChangeCallback()}set(e,t,n,s=this._order){return this._x=e,this._y=t,this._z=n,this._order=s,this._onChangeCallback(),this}clone(){return new this.constructor(this._x,this._y,this._z,this._order)}copy(e){return this._x=e._x,this._y=e._y,this._z=e._z,this._order=e._order,this._onChangeCallback(),this}setFromRotationMatrix(e,t=this._order,n=!0){let s=e.elements,o=s[0],c=s[4],h=s[8],f=s[1],d=s[5],m=s[9],v=s[2],g=s[6],S=s[10];switch(t){case"XYZ":this._y=Math.asin(xt(h,-1,1)),Math.abs(h)<.9999999?(this._x=Math.atan2(-m,S),this._z=Math.atan2(-c,o)):(this._x=Math.atan2(g,d),this._z=0);break;case"YXZ":this._x=Math.asin(-xt(m,-1,1)),Math.abs(m)<.9999999?(this._y=Math.atan2(h,S),this._z=Math.atan2(f,d)):(this._y=Math.atan2(-v,o),this._z=0);break;case"ZXY":this._x=Math.asin(xt(g,-1,1)),Math.abs(g)<.9999999?(this._y=Math.atan2(-v,S),this._z=Math.atan2(-c,d)):(this._y=0,this._z=Math.atan2(f,o));break;case"ZYX":this._y=Math.asin(-xt(v,-1,1)),Math.abs(v)<.9999999?(this._x=Math.atan2(g,S),this._z=Math.atan2(f,o)):(this._x=0,this._z=Math.atan2(-c,d));break;case"YZX":this._z=Math.asin(xt(f,-1,1)),Math.abs(f)<.9999999?(this._x=Math.atan2(-m,d),this._y=Math.atan2(-v,o)):(this._x=0,this._y=Math.atan2(h,S));break;case"XZY":this._z=Math.asin(-xt(c,-1,1)),Math.abs(c)<.9999999?(this._x=Math.atan2(g,d),this._y=Math.atan2(h,o)):(this._x=Math.atan2(-m,S),this._y=0);break;default:et("Euler: .setFromRotationMatrix() encountered an unknown order: "+t)}return this._order=t,n===!0&&this._onChangeCallback(),this}setFromQuaternion(e,t,n){return zh.makeRotationFromQuaternion(e),this.setFromRotationMatrix(zh,t,n)}setFromVector3(e,t=this._order){return this.set(e.x,e.y,e.z,t)}reorder(e){return Gh.setFromEuler(this),this.setFromQuaternion(Gh,e)}equals(e){return e._x===this._x&&e._y===this._y&&e._z===this._z&&e._order===this._order}fromArray(e){return this._x=e[0],this._y=e[1],this._z=e[2],e[3]!==void 0&&(this._order=e[3]),this._onChangeCallback(),this}toArray(e=[],t=0){return e[t]=this._x,e[t+1]=this._y,e[t+2]=this._z,e[t+3]=this._order,e}_onChange(e){return this._onChangeCallback=e,this}_onChangeCallback(){}*[Symbol.iterator](){yield this._x,yield this._y,yield this._z,yield this._order}};gi.DEFAULT_ORDER="XYZ";var Cr=class{constructor(){this.mask=1}set(e){this.mask=(1<<e|0)>>>0}enable(e){this.mask|=1<<e|0}enableAll(){this.mask=-1}toggle(e){this.mask^=1<<e|0}disable(e){this.mask&=~(1<<e|0)}disableAll(){this.mask=0}test(e){return(this.mask&e.mask)!==0}isEnabled(e){return(this.mask&(1<<e|0))!==0}},p0=0,Vh=new Q,ur=new ti,ci=new It,ra=new Q,Yr=new Q,m0=new Q,g0=new ti,Hh=new Q(1,0,0),Wh=new Q(0,1,0),Xh=new Q(0,0,1),$h={type:"added"},_0={type:"removed"},dr={type:"childadded",child:null},Al={type:"childremoved",child:null},ln=class i extends ei{constructor(){super(),this.isObject3D=!0,Object.defineProperty(this,"id",{value:p0++}),this.uuid=kr(),this.name="",this.type="Object3D",this.parent=null,this.children=[],this.up=i.DEFAULT_UP.clone();let e=new Q,t=new gi,n=new ti,s=new Q(1,1,1);function o(){n.setFromEuler(t,!1)}function c(){t.setFromQuaternion(n,void 0,!1)}t._onChange(o),n._onChange(c),Object.defineProperties(this,{position:{configurable:!0,enumerable:!0,value:e},rotation:{configurable:!0,enumerable:!0,value:t},quaternion:{configurable:!0,enumerable:!0,value:n},scale:{configurable:!0,enumerable:!0,value:s},modelViewMatrix:{value:new It},normalMatrix:{value:new at}}),this.matrix=new It,this.matrixWorld=new It,this.matrixAutoUpdate=i.DEFAULT_MATRIX_AUTO_UPDATE,this.matrixWorldAutoUpdate=i.DEFAULT_MATRIX_WORLD_AUTO_UPDATE,this.matrixWorldNeedsUpdate=!1,this.layers=new Cr,this.visible=!0,this.castShadow=!1,this.receiveShadow=!1,this.frustumCulled=!0,this.renderOrder=0,this.animations=[],this.customDepthMaterial=void 0,this.customDistanceMaterial=void 0,this.static=!1,this.userData={},this.pivot=null}onBeforeShadow(){}onAfterShadow(){}onBeforeRender(){}onAfterRender(){}applyMatrix4(e){this.matrixAutoUpdate&&this.updateMatrix(),this.matrix.premultiply(e),this.matrix.decompose(this.position,this.quaternion,this.scale),this.pivot!==null&&this.position.copy(this.pivot).applyMatrix4(this.matrix).sub(this.pivot)}applyQuaternion(e){return this.quaternion.premultiply(e),this}setRotationFromAxisAngle(e,t){this.quaternion.setFromAxisAngle(e,t)}setRotationFromEuler(e){this.quaternion.setFromEuler(e,!0)}setRotationFromMatrix(e){this.quaternion.setFromRotationMatrix(e)}setRotationFromQuaternion(e){this.quaternion.copy(e)}rotateOnAxis(e,t){return ur.setFromAxisAngle(e,t),this.quaternion.multiply(ur),this}rotateOnWorldAxis(e,t){return ur.setFromAxisAngle(e,t),this.quaternion.premultiply(ur),this}rotateX(e){return this.rotateOnAxis(Hh,e)}rotateY(e){return this.rotateOnAxis(Wh,e)}rotateZ(e){return this.rotateOnAxis(Xh,e)}translateOnAxis(e,t){return Vh.copy(e).applyQuaternion(this.quaternion),this.position.add(Vh.multiplyScalar(t)),this}translateX(e){return this.translateOnAxis(Hh,e)}translateY(e){return this.translateOnAxis(Wh,e)}translateZ(e){return this.translateOnAxis(Xh,e)}localToWorld(e){return this.updateWorldMatrix(!0,!1),e.applyMatrix4(this.matrixWorld)}worldToLocal(e){return this.updateWorldMatrix(!0,!1),e.applyMatrix4(ci.copy(this.matrixWorld).invert())}lookAt(e,t,n){e.isVector3?ra.copy(e):ra.set(e,t,n);let s=this.parent;this.updateWorldMatrix(!0,!1),Yr.setFromMatrixPosition(this.matrixWorld),this.isCamera||this.isLight?ci.lookAt(Yr,ra,this.up):ci.lookAt(ra,Yr,this.up),this.quaternion.setFromRotationMatrix(ci),s&&(ci.extractRotation(s.matrixWorld),ur.setFromRotationMatrix(ci),this.quaternion.premultiply(ur.invert()))}add(e){if(arguments.length>1){for(let t=0;t<arguments.length;t++)this.add(arguments[t]);return this}return e===this?(tt("Object3D.add: object can't be added as a child of itself.",e),this):(e&&e.isObject3D?(e.removeFromParent(),e.parent=this,this.children.push(e),e.dispatchEvent($h),dr.child=e,this.dispatchEvent(dr),dr.child=null):tt("Object3D.add: object not an instance of THREE.Object3D.",e),this)}remove(e){if(arguments.length>1){for(let n=0;n<arguments.length;n++)this.remove(arguments[n]);return this}let t=this.children.indexOf(e);return t!==-1&&(e.parent=null,this.children.splice(t,1),e.dispatchEvent(_0),Al.child=e,this.dispatchEvent(Al),Al.child=null),this}removeFromParent(){let e=this.parent;return e!==null&&e.remove(this),this}clear(){return this.remove(...this.children)}attach(e){return this.updateWorldMatrix(!0,!1),ci.copy(this.matrixWorld).invert(),e.parent!==null&&(e.parent.updateWorldMatrix(!0,!1),ci.multiply(e.parent.matrixWorld)),e.applyMatrix4(ci),e.removeFromParent(),e.parent=this,this.children.push(e),e.updateWorldMatrix(!1,!0),e.dispatchEvent($h),dr.child=e,this.dispatchEvent(dr),dr.child=null,this}getObjectById(e){return this.getObjectByProperty("id",e)}getObjectByName(e){return this.getObjectByProperty("name",e)}getObjectByProperty(e,t){if(this[e]===t)return this;for(let n=0,s=this.children.length;n<s;n++){let c=this.children[n].getObjectByProperty(e,t);if(c!==void 0)return c}}getObjectsByProperty(e,t,n=[]){this[e]===t&&n.push(this);let s=this.children;for(let o=0,c=s.length;o<c;o++)s[o].getObjectsByProperty(e,t,n);return n}getWorldPosition(e){return this.updateWorldMatrix(!0,!1),e.setFromMatrixPosition(this.matrixWorld)}getWorldQuaternion(e){return this.updateWorldMatrix(!0,!1),this.matrixWorld.decompose(Yr,e,m0),e}getWorldScale(e){return this.updateWorldMatrix(!0,!1),this.matrixWorld.decompose(Yr,g0,e),e}getWorldDirection(e){this.updateWorldMatrix(!0,!1);let t=this.matrixWorld.elements;return e.set(t[8],t[9],t[10]).normalize()}raycast(){}intersectsFrustum(){return!0}traverse(e){e(this);let t=this.children;for(let n=0,s=t.length;n<s;n++)t[n].traverse(e)}traverseVisible(e){if(this.visible===!1)return;e(this);let t=this.children;for(let n=0,s=t.length;n<s;n++)t[n].traverseVisible(e)}traverseAncestors(e){let t=this.parent;t!==null&&(e(t),t.traverseAncestors(e))}updateMatrix(){this.matrix.compose(this.position,this.quaternion,this.scale);let e=this.pivot;if(e!==null){let t=e.x,n=e.y,s=e.z,o=this.matrix.elements;o[12]+=t-o[0]*t-o[4]*n-o[8]*s,o[13]+=n-o[1]*t-o[5]*n-o[9]*s,o[14]+=s-o[2]*t-o[6]*n-o[10]*s}this.matrixWorldNeedsUpdate=!0}updateMatrixWorld(e){this.matrixAutoUpdate&&this.updateMatrix(),(this.matrixWorldNeedsUpdate||e)&&(this.matrixWorldAutoUpdate===!0&&(this.parent===null?this.matrixWorld.copy(this.matrix):this.matrixWorld.multiplyMatrices(this.parent.matrixWorld,this.matrix)),this.matrixWorldNeedsUpdate=!1,e=!0);let t=this.children;for(let n=0,s=t.length;n<s;n++)t[n].updateMatrixWorld(e)}updateWorldMatrix(e,t,n=!1){let s=this.parent;if(e===!0&&s!==null&&s.updateWorldMatrix(!0,!1),this.matrixAutoUpdate&&this.updateMatrix(),(this.matrixWorldNeedsUpdate||n)&&(this.matrixWorldAutoUpdate===!0&&(this.parent===null?this.matrixWorld.copy(this.matrix):this.matrixWorld.multiplyMatrices(this.parent.matrixWorld,this.matrix)),this.matrixWorldNeedsUpdate=!1,n=!0),t===!0){let o=this.children;for(let c=0,h=o.length;c<h;c++)o[c].updateWorldMatrix(!1,!0,n)}}toJSON(e){let t=e===void 0||typeof e=="string",n={};t&&(e={geometries:{},materials:{},textures:{},images:{},shapes:{},skeletons:{},animations:{},nodes:{}},n.metadata={version:4.7,type:"Object",generator:"Object3D.toJSON"});let s={};s.uuid=this.uuid,s.type=this.type,s.name=this.name,s.castShadow=this.castShadow,s.receiveShadow=this.receiveShadow,s.visible=this.visible,s.frustumCulled=this.frustumCulled,s.renderOrder=this.renderOrder,s.static=this.static,s.matrixAutoUpdate=this.matrixAutoUpdate,Object.keys(this.userData).length>0&&(s.userData=this.userData),s.layers=this.layers.mask,s.matrix=this.matrix.toArray(),s.up=this.up.toArray(),this.pivot!==null&&(s.pivot=this.pivot.toArray()),this.morphTargetDictionary!==void 0&&(s.morphTargetDictionary=Object.assign({},this.morphTargetDictionary)),this.morphTargetInfluences!==void 0&&(s.morphTargetInfluences=this.morphTargetInfluences.slice()),this.isInstancedMesh&&(s.type="InstancedMesh",s.count=this.count,s.instanceMatrix=this.instanceMatrix.toJSON(),this.instanceColor!==null&&(s.instanceColor=this.instanceColor.toJSON())),this.isBatchedMesh&&(s.type="BatchedMesh",s.perObjectFrustumCulled=this.perObjectFrustumCulled,s.sortObjects=this.sortObjects,s.drawRanges=this._drawRanges,s.reservedRanges=this._reservedRanges,s.geometryInfo=this._geometryInfo.map(h=>({...h,boundingBox:h.boundingBox?h.boundingBox.toJSON():void 0,boundingSphere:h.boundingSphere?h.boundingSphere.toJSON():void 0})),s.instanceInfo=this._instanceInfo.map(h=>({...h})),s.availableInstanceIds=this._availableInstanceIds.slice(),s.availableGeometryIds=this._availableGeometryIds.slice(),s.nextIndexStart=this._nextIndexStart,s.nextVertexStart=this._nextVertexStart,s.geometryCount=this._geometryCount,s.maxInstanceCount=this._maxInstanceCount,s.maxVertexCount=this._maxVertexCount,s.maxIndexCount=this._maxIndexCount,s.geometryInitialized=this._geometryInitialized,s.matricesTexture=this._matricesTexture.toJSON(e),s.indirectTexture=this._indirectTexture.toJSON(e),this._colorsTexture!==null&&(s.colorsTexture=this._colorsTexture.toJSON(e)),this.boundingSphere!==null&&(s.boundingSphere=this.boundingSphere.toJSON()),this.boundingBox!==null&&(s.boundingBox=this.boundingBox.toJSON()));function o(h,f){return h[f.uuid]===void 0&&(h[f.uuid]=f.toJSON(e)),f.uuid}if(this.isScene)this.background&&(this.background.isColor?s.background=this.background.toJSON():this.background.isTexture&&(s.background=this.background.toJSON(e).uuid)),this.environment&&this.environment.isTexture&&this.environment.isRenderTargetTexture!==!0&&(s.environment=this.environment.toJSON(e).uuid);else if(this.isMesh||this.isLine||this.isPoints){s.geometry=o(e.geometries,this.geometry);let h=this.geometry.parameters;if(h!==void 0&&h.shapes!==void 0){let f=h.shapes;if(Array.isArray(f))for(let d=0,m=f.length;d<m;d++){let v=f[d];o(e.shapes,v)}else o(e.shapes,f)}}if(this.isSkinnedMesh&&(s.bindMode=this.bindMode,s.bindMatrix=this.bindMatrix.toArray(),this.skeleton!==void 0&&(o(e.skeletons,this.skeleton),s.skeleton=this.skeleton.uuid)),this.material!==void 0)if(Array.isArray(this.material)){let h=[];for(let f=0,d=this.material.length;f<d;f++)h.push(o(e.materials,this.material[f]));s.material=h}else s.material=o(e.materials,this.material);if(this.children.length>0){s.children=[];for(let h=0;h<this.children.length;h++)s.children.push(this.children[h].toJSON(e).object)}if(this.animations.length>0){s.animations=[];for(let h=0;h<this.animations.length;h++){let f=this.animations[h];s.animations.push(o(e.animations,f))}}if(t){let h=c(e.geometries),f=c(e.materials),d=c(e.textures),m=c(e.images),v=c(e.shapes),g=c(e.skeletons),S=c(e.animations),w=c(e.nodes);h.length>0&&(n.geometries=h),f.length>0&&(n.materials=f),d.length>0&&(n.textures=d),m.length>0&&(n.images=m),v.length>0&&(n.shapes=v),g.length>0&&(n.skeletons=g),S.length>0&&(n.animations=S),w.length>0&&(n.nodes=w)}return n.object=s,n;function c(h){let f=[];for(let d in h){let m=h[d];delete m.metadata,f.push(m)}return f}}clone(e){return new this.constructor().copy(this,e)}copy(e,t=!0){if(this.name=e.name,this.up.copy(e.up),this.position.copy(e.position),this.rotation.order=e.rotation.order,this.quaternion.copy(e.quaternion),this.scale.copy(e.scale),this.pivot=e.pivot!==null?e.pivot.clone():null,this.matrix.copy(e.matrix),this.matrixWorld.copy(e.matrixWorld),this.matrixAutoUpdate=e.matrixAutoUpdate,this.matrixWorldAutoUpdate=e.matrixWorldAutoUpdate,this.matrixWorldNeedsUpdate=e.matrixWorldNeedsUpdate,this.layers.mask=e.layers.mask,this.visible=e.visible,this.castShadow=e.castShadow,this.receiveShadow=e.receiveShadow,this.frustumCulled=e.frustumCulled,this.renderOrder=e.renderOrder,this.static=e.static,this.animations=e.animations.slice(),this.userData=JSON.parse(JSON.stringify(e.userData)),t===!0)for(let n=0;n<e.children.length;n++){let s=e.children[n];this.add(s.clone())}return this}dispose(){this.dispatchEvent({type:"dispose"})}};ln.DEFAULT_UP=new Q(0,1,0);ln.DEFAULT_MATRIX_AUTO_UPDATE=!0;ln.DEFAULT_MATRIX_WORLD_AUTO_UPDATE=!0;var Ji=class extends ln{constructor(){super(),this.isGroup=!0,this.type="Group"}},v0={type:"move"},Rr=class{constructor(){this._targetRay=null,this._grip=null,this._hand=null}getHandSpace(){return this._hand===null&&(this._hand=new Ji,this._hand.matrixAutoUpdate=!1,this._hand.visible=!1,this._hand.joints={},this._hand.inputState={pinching:!1}),this._hand}getTargetRaySpace(){return this._targetRay===null&&(this._targetRay=new Ji,this._targetRay.matrixAutoUpdate=!1,this._targetRay.visible=!1,this._targetRay.hasLinearVelocity=!1,this._targetRay.linearVelocity=new Q,this._targetRay.hasAngularVelocity=!1,this._targetRay.angularVelocity=new Q),this._targetRay}getGripSpace(){return this._grip===null&&(this._grip=new Ji,this._grip.matrixAutoUpdate=!1,this._grip.visible=!1,this._grip.hasLinearVelocity=!1,this._grip.linearVelocity=new Q,this._grip.hasAngularVelocity=!1,this._grip.angularVelocity=new Q,this._grip.eventsEnabled=!1),this._grip}dispatchEvent(e){return this._targetRay!==null&&this._targetRay.dispatchEvent(e),this._grip!==null&&this._grip.dispatchEvent(e),this._hand!==null&&this._hand.dispatchEvent(e),this}connect(e){if(e&&e.hand){let t=this._hand;if(t)for(let n of e.hand.values())this._getHandJoint(t,n)}return this.dispatchEvent({type:"connected",data:e}),this}disconnect(e){return this.dispatchEvent({type:"disconnected",data:e}),this._targetRay!==null&&(this._targetRay.visible=!1),this._grip!==null&&(this._grip.visible=!1),this._hand!==null&&(this._hand.visible=!1),this}update(e,t,n){let s=null,o=null,c=null,h=this._targetRay,f=this._grip,d=this._hand;if(e&&t.session.visibilityState!=="visible-blurred"){if(d&&e.hand){c=!0;for(let R of e.hand.values()){let x=t.getJointPose(R,n),y=this._getHandJoint(d,R);x!==null&&(y.matrix.fromArray(x.transform.matrix),y.matrix.decompose(y.position,y.quaternion,y.scale),y.matrixWorldNeedsUpdate=!0,y.jointRadius=x.radius),y.visible=x!==null}let m=d.joints["index-finger-tip"],v=d.joints["thumb-tip"],g=m.position.distanceTo(v.position),S=.02,w=.005;d.inputState.pinching&&g>S+w?(d.inputState.pinching=!1,this.dispatchEvent({type:"pinchend",handedness:e.handedness,target:this})):!d.inputState.pinching&&g<=S-w&&(d.inputState.pinching=!0,this.dispatchEvent({type:"pinchstart",handedness:e.handedness,target:this}))}else f!==null&&e.gripSpace&&(o=t.getPose(e.gripSpace,n),o!==null&&(f.matrix.fromArray(o.transform.matrix),f.matrix.decompose(f.position,f.quaternion,f.scale),f.matrixWorldNeedsUpdate=!0,o.linearVelocity?(f.hasLinearVelocity=!0,f.linearVelocity.copy(o.linearVelocity)):f.hasLinearVelocity=!1,o.angularVelocity?(f.hasAngularVelocity=!0,f.angularVelocity.copy(o.angularVelocity)):f.hasAngularVelocity=!1,f.eventsEnabled&&f.dispatchEvent({type:"gripUpdated",data:e,target:this})));h!==null&&(s=t.getPose(e.targetRaySpace,n),s===null&&o!==null&&(s=o),s!==null&&(h.matrix.fromArray(s.transform.matrix),h.matrix.decompose(h.position,h.quaternion,h.scale),h.matrixWorldNeedsUpdate=!0,s.linearVelocity?(h.hasLinearVelocity=!0,h.linearVelocity.copy(s.linearVelocity)):h.hasLinearVelocity=!1,s.angularVelocity?(h.hasAngularVelocity=!0,h.angularVelocity.copy(s.angularVelocity)):h.hasAngularVelocity=!1,this.dispatchEvent(v0)))}return h!==null&&(h.visible=s!==null),f!==null&&(f.visible=o!==null),d!==null&&(d.visible=c!==null),this}_getHandJoint(e,t){if(e.joints[t.jointName]===void 0){let n=new Ji;n.matrixAutoUpdate=!1,n.visible=!1,e.joints[t.jointName]=n,e.add(n)}return e.joints[t.jointName]}},Yu={aliceblue:15792383,antiquewhite:16444375,aqua:65535,aquamarine:8388564,azure:15794175,beige:16119260,bisque:16770244,black:0,blanchedalmond:16772045,blue:255,blueviolet:9055202,brown:10824234,burlywood:14596231,cadetblue:6266528,chartreuse:8388352,chocolate:13789470,coral:16744272,cornflowerblue:6591981,cornsilk:16775388,crimson:14423100,cyan:65535,darkblue:139,darkcyan:35723,darkgoldenrod:12092939,darkgray:11119017,darkgreen:25600,darkgrey:11119017,darkkhaki:12433259,darkmagenta:9109643,darkolivegreen:5597999,darkorange:16747520,darkorchid:10040012,darkred:9109504,darksalmon:15308410,darkseagreen:9419919,darkslateblue:4734347,darkslategray:3100495,darkslategrey:3100495,darkturquoise:52945,darkviolet:9699539,deeppink:16716947,deepskyblue:49151,dimgray:6908265,dimgrey:6908265,dodgerblue:2003199,firebrick:11674146,floralwhite:16775920,forestgreen:2263842,fuchsia:16711935,gainsboro:14474460,ghostwhite:16316671,gold:16766720,goldenrod:14329120,gray:8421504,green:32768,greenyellow:11403055,grey:8421504,honeydew:15794160,hotpink:16738740,indianred:13458524,indigo:4915330,ivory:16777200,khaki:15787660,lavender:15132410,lavenderblush:16773365,lawngreen:8190976,lemonchiffon:16775885,lightblue:11393254,lightcoral:15761536,lightcyan:14745599,lightgoldenrodyellow:16448210,lightgray:13882323,lightgreen:9498256,lightgrey:13882323,lightpink:16758465,lightsalmon:16752762,lightseagreen:2142890,lightskyblue:8900346,lightslategray:7833753,lightslategrey:7833753,lightsteelblue:11584734,lightyellow:16777184,lime:65280,limegreen:3329330,linen:16445670,magenta:16711935,maroon:8388608,mediumaquamarine:6737322,mediumblue:205,mediumorchid:12211667,mediumpurple:9662683,mediumseagreen:3978097,mediumslateblue:8087790,mediumspringgreen:64154,mediumturquoise:4772300,mediumvioletred:13047173,midnightblue:1644912,mintcream:16121850,mistyrose:16770273,moccasin:16770229,navajowhite:16768685,navy:128,oldlace:16643558,olive:8421376,olivedrab:7048739,orange:16753920,orangered:16729344,orchid:14315734,palegoldenrod:15657130,palegreen:10025880,paleturquoise:11529966,palevioletred:14381203,papayawhip:16773077,peachpuff:16767673,peru:13468991,pink:16761035,plum:14524637,powderblue:11591910,purple:8388736,rebeccapurple:6697881,red:16711680,rosybrown:12357519,royalblue:4286945,saddlebrown:9127187,salmon:16416882,sandybrown:16032864,seagreen:3050327,seashell:16774638,sienna:10506797,silver:12632256,skyblue:8900331,slateblue:6970061,slategray:7372944,slategrey:7372944,snow:16775930,springgreen:65407,steelblue:4620980,tan:13808780,teal:32896,thistle:14204888,tomato:16737095,turquoise:4251856,violet:15631086,wheat:16113331,white:16777215,whitesmoke:16119285,yellow:16776960,yellowgreen:10145074},wi={h:0,s:0,l:0},sa={h:0,s:0,l:0};function Cl(i,e,t){return t<0&&(t+=1),t>1&&(t-=1),t<1/6?i+(e-i)*6*t:t<1/2?e:t<2/3?i+(e-i)*6*(2/3-t):i}var ut=class{constructor(e,t,n){return this.isColor=!0,this.r=1,this.g=1,this.b=1,this.set(e,t,n)}set(e,t,n){if(t===void 0&&n===void 0){let s=e;s&&s.isColor?this.copy(s):typeof s=="number"?this.setHex(s):typeof s=="string"&&this.setStyle(s)}else this.setRGB(e,t,n);return this}setScalar(e){return this.r=e,this.g=e,this.b=e,this}setHex(e,t=mn){return e=Math.floor(e),this.r=(e>>16&255)/255,this.g=(e>>8&255)/255,this.b=(e&255)/255,yt.colorSpaceToWorking(this,t),this}setRGB(e,t,n,s=yt.workingColorSpace){return this.r=e,this.g=t,this.b=n,yt.colorSpaceToWorking(this,s),this}setHSL(e,t,n,s=yt.workingColorSpace){if(e=Ec(e,1),t=xt(t,0,1),n=xt(n,0,1),t===0)this.r=this.g=this.b=n;else{let o=n<=.5?n*(1+t):n+t-n*t,c=2*n-o;this.r=Cl(c,o,e+1/3),this.g=Cl(c,o,e),this.b=Cl(c,o,e-1/3)}return yt.colorSpaceToWorking(this,s),this}setStyle(e,t=mn){function n(o){o!==void 0&&parseFloat(o)<1&&et("Color: Alpha component of "+e+" will be ignored.")}let s;if(s=/^(\w+)\(([^\)]*)\)/.exec(e)){let o,c=s[1],h=s[2];switch(c){case"rgb":case"rgba":if(o=/^\s*(\d+)\s*,\s*(\d+)\s*,\s*(\d+)\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(h))return n(o[4]),this.setRGB(Math.min(255,parseInt(o[1],10))/255,Math.min(255,parseInt(o[2],10))/255,Math.min(255,parseInt(o[3],10))/255,t);if(o=/^\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(h))return n(o[4]),this.setRGB(Math.min(100,parseFloat(o[1]))/100,Math.min(100,parseFloat(o[2]))/100,Math.min(100,parseFloat(o[3]))/100,t);break;case"hsl":case"hsla":if(o=/^\s*([+-]?(?:\d+(?:\.\d+)?|\.\d+))\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*,\s*(\d+(?:\.\d+)?|\.\d+)\%\s*(?:,\s*(\d+(?:\.\d+)?|\.\d+)\s*)?$/.exec(h))return n(o[4]),this.setHSL(parseFloat(o[1])/360,parseFloat(o[2])/100,parseFloat(o[3])/100,t);break;default:et("Color: Unknown color model "+e)}}else if(s=/^\#([A-Fa-f\d]+)$/.exec(e)){let o=s[1],c=o.length;if(c===3)return this.setRGB(parseInt(o.charAt(0),16)/15,parseInt(o.charAt(1),16)/15,parseInt(o.charAt(2),16)/15,t);if(c===6)return this.setHex(parseInt(o,16),t);et("Color: Invalid hex color "+e)}else if(e&&e.length>0)return this.setColorName(e,t);return this}setColorName(e,t=mn){let n=Yu[e.toLowerCase()];return n!==void 0?this.setHex(n,t):et("Color: Unknown color "+e),this}clone(){return new this.constructor(this.r,this.g,this.b)}copy(e){return this.r=e.r,this.g=e.g,this.b=e.b,this}copySRGBToLinear(e){return this.r=pi(e.r),this.g=pi(e.g),this.b=pi(e.b),this}copyLinearToSRGB(e){return this.r=Mr(e.r),this.g=Mr(e.g),this.b=Mr(e.b),this}convertSRGBToLinear(){return this.copySRGBToLinear(this),this}convertLinearToSRGB(){return this.copyLinearToSRGB(this),this}getHex(e=mn){return yt.workingToColorSpace(un.copy(this),e),Math.round(xt(un.r*255,0,255))*65536+Math.round(xt(un.g*255,0,255))*256+Math.round(xt(un.b*255,0,255))}getHexString(e=mn){return("000000"+this.getHex(e).toString(16)).slice(-6)}getHSL(e,t=yt.workingColorSpace){yt.workingToColorSpace(un.copy(this),t);let n=un.r,s=un.g,o=un.b,c=Math.max(n,s,o),h=Math.min(n,s,o),f,d,m=(h+c)/2;if(h===c)f=0,d=0;else{let v=c-h;switch(d=m<=.5?v/(c+h):v/(2-c-h),c){case n:f=(s-o)/v+(s<o?6:0);break;case s:f=(o-n)/v+2;break;case o:f=(n-s)/v+4;break}f/=6}return e.h=f,e.s=d,e.l=m,e}getRGB(e,t=yt.workingColorSpace){return yt.workingToColorSpace(un.copy(this),t),e.r=un.r,e.g=un.g,e.b=un.b,e}getStyle(e=mn){yt.workingToColorSpace(un.copy(this),e);let t=un.r,n=un.g,s=un.b;return e!==mn?`color(${e} ${t.toFixed(3)} ${n.toFixed(3)} ${s.toFixed(3)})`:`rgb(${Math.round(t*255)},${Math.round(n*255)},${Math.round(s*255)})`}offsetHSL(e,t,n){return this.getHSL(wi),this.setHSL(wi.h+e,wi.s+t,wi.l+n)}add(e){return this.r+=e.r,this.g+=e.g,this.b+=e.b,this}addColors(e,t){return this.r=e.r+t.r,this.g=e.g+t.g,this.b=e.b+t.b,this}addScalar(e){return this.r+=e,this.g+=e,this.b+=e,this}sub(e){return this.r=Math.max(0,this.r-e.r),this.g=Math.max(0,this.g-e.g),this.b=Math.max(0,this.b-e.b),this}multiply(e){return this.r*=e.r,this.g*=e.g,this.b*=e.b,this}multiplyScalar(e){return this.r*=e,this.g*=e,this.b*=e,this}lerp(e,t){return this.r+=(e.r-this.r)*t,this.g+=(e.g-this.g)*t,this.b+=(e.b-this.b)*t,this}lerpColors(e,t,n){return this.r=e.r+(t.r-e.r)*n,this.g=e.g+(t.g-e.g)*n,this.b=e.b+(t.b-e.b)*n,this}lerpHSL(e,t){this.getHSL(wi),e.getHSL(sa);let n=ts(wi.h,sa.h,t),s=ts(wi.s,sa.s,t),o=ts(wi.l,sa.l,t);return this.setHSL(n,s,o),this}setFromVector3(e){return this.r=e.x,this.g=e.y,this.b=e.z,this}applyMatrix3(e){let t=this.r,n=this.g,s=this.b,o=e.elements;return this.r=o[0]*t+o[3]*n+o[6]*s,this.g=o[1]*t+o[4]*n+o[7]*s,this.b=o[2]*t+o[5]*n+o[8]*s,this}equals(e){return e.r===this.r&&e.g===this.g&&e.b===this.b}fromArray(e,t=0){return this.r=e[t],this.g=e[t+1],this.b=e[t+2],this}toArray(e=[],t=0){return e[t]=this.r,e[t+1]=this.g,e[t+2]=this.b,e}fromBufferAttribute(e,t){return this.r=e.getX(t),this.g=e.getY(t),this.b=e.getZ(t),this}toJSON(){return this.getHex()}*[Symbol.iterator](){yield this.r,yield this.g,yield this.b}},un=new ut;ut.NAMES=Yu;var os=class extends ln{constructor(){super(),this.isScene=!0,this.type="Scene",this.background=null,this.environment=null,this.fog=null,this.backgroundBlurriness=0,this.backgroundIntensity=1,this.backgroundRotation=new gi,this.environmentIntensity=1,this.environmentRotation=new gi,this.overrideMaterial=null,typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}copy(e,t){return super.copy(e,t),this.background=e.background!==null?e.background.clone():null,this.environment=e.environment!==null?e.environment.clone():null,this.fog=e.fog!==null?e.fog.clone():null,this.backgroundBlurriness=e.backgroundBlurriness,this.backgroundIntensity=e.backgroundIntensity,this.backgroundRotation.copy(e.backgroundRotation),this.environmentIntensity=e.environmentIntensity,this.environmentRotation.copy(e.environmentRotation),this.overrideMaterial=e.overrideMaterial!==null?e.overrideMaterial.clone():null,this.matrixAutoUpdate=e.matrixAutoUpdate,this}toJSON(e){let t=super.toJSON(e);return this.fog!==null&&(t.object.fog=this.fog.toJSON()),t.object.backgroundBlurriness=this.backgroundBlurriness,t.object.backgroundIntensity=this.backgroundIntensity,t.object.backgroundRotation=this.backgroundRotation.toArray(),t.object.environmentIntensity=this.environmentIntensity,t.object.environmentRotation=this.environmentRotation.toArray(),t}},On=new Q,hi=new Q,Rl=new Q,ui=new Q,fr=new Q,pr=new Q,qh=new Q,Pl=new Q,Il=new Q,Ll=new Q,Dl=new zt,Fl=new zt,Nl=new zt,Ci=class i{constructor(e=new Q,t=new Q,n=new Q){this.a=e,this.b=t,this.c=n}static getNormal(e,t,n,s){s.subVectors(n,t),On.subVectors(e,t),s.cross(On);let o=s.lengthSq();return o>0?s.multiplyScalar(1/Math.sqrt(o)):s.set(0,0,0)}static getBarycoord(e,t,n,s,o){On.subVectors(s,t),hi.subVectors(n,t),Rl.subVectors(e,t);let c=On.dot(On),h=On.dot(hi),f=On.dot(Rl),d=hi.dot(hi),m=hi.dot(Rl),v=c*d-h*h;if(v===0)return o.set(0,0,0),null;let g=1/v,S=(d*f-h*m)*g,w=(c*m-h*f)*g;return o.set(1-S-w,w,S)}static containsPoint(e,t,n,s){return this.getBarycoord(e,t,n,s,ui)===null?!1:ui.x>=0&&ui.y>=0&&ui.x+ui.y<=1}static getInterpolation(e,t,n,s,o,c,h,f){return this.getBarycoord(e,t,n,s,ui)===null?(f.x=0,f.y=0,"z"in f&&(f.z=0),"w"in f&&(f.w=0),null):(f.setScalar(0),f.addScaledVector(o,ui.x),f.addScaledVector(c,ui.y),f.addScaledVector(h,ui.z),f)}static getInterpolatedAttribute(e,t,n,s,o,c){return Dl.setScalar(0),Fl.setScalar(0),Nl.setScalar(0),Dl.fromBufferAttribute(e,t),Fl.fromBufferAttribute(e,n),Nl.fromBufferAttribute(e,s),c.setScalar(0),c.addScaledVector(Dl,o.x),c.addScaledVector(Fl,o.y),c.addScaledVector(Nl,o.z),c}static isFrontFacing(e,t,n,s){return On.subVectors(n,t),hi.subVectors(e,t),On.cross(hi).dot(s)<0}set(e,t,n){return this.a.copy(e),this.b.copy(t),this.c.copy(n),this}setFromPointsAndIndices(e,t,n,s){return this.a.copy(e[t]),this.b.copy(e[n]),this.c.copy(e[s]),this}setFromAttributeAndIndices(e,t,n,s){return this.a.fromBufferAttribute(e,t),this.b.fromBufferAttribute(e,n),this.c.fromBufferAttribute(e,s),this}clone(){return new this.constructor().copy(this)}copy(e){return this.a.copy(e.a),this.b.copy(e.b),this.c.copy(e.c),this}getArea(){return On.subVectors(this.c,this.b),hi.subVectors(this.a,this.b),On.cross(hi).length()*.5}getMidpoint(e){return e.addVectors(this.a,this.b).add(this.c).multiplyScalar(1/3)}getNormal(e){return i.getNormal(this.a,this.b,this.c,e)}getPlane(e){return e.setFromCoplanarPoints(this.a,this.b,this.c)}getBarycoord(e,t){return i.getBarycoord(e,this.a,this.b,this.c,t)}getInterpolation(e,t,n,s,o){return i.getInterpolation(e,this.a,this.b,this.c,t,n,s,o)}containsPoint(e){return i.containsPoint(e,this.a,this.b,this.c)}isFrontFacing(e){return i.isFrontFacing(this.a,this.b,this.c,e)}intersectsBox(e){return e.intersectsTriangle(this)}closestPointToPoint(e,t){let n=this.a,s=this.b,o=this.c,c,h;fr.subVectors(s,n),pr.subVectors(o,n),Pl.subVectors(e,n);let f=fr.dot(Pl),d=pr.dot(Pl);if(f<=0&&d<=0)return t.copy(n);Il.subVectors(e,s);let m=fr.dot(Il),v=pr.dot(Il);if(m>=0&&v<=m)return t.copy(s);let g=f*v-m*d;if(g<=0&&f>=0&&m<=0&&f-m>0)return c=f/(f-m),t.copy(n).addScaledVector(fr,c);Ll.subVectors(e,o);let S=fr.dot(Ll),w=pr.dot(Ll);if(w>=0&&S<=w)return t.copy(o);let R=S*d-f*w;if(R<=0&&d>=0&&w<=0)return h=d/(d-w),t.copy(n).addScaledVector(pr,h);let x=m*w-S*v;if(x<=0&&v-m>=0&&S-w>=0)return qh.subVectors(o,s),h=(v-m)/(v-m+(S-w)),t.copy(s).addScaledVector(qh,h);let y=1/(x+R+g);return c=R*y,h=g*y,t.copy(n).addScaledVector(fr,c).addScaledVector(pr,h)}equals(e){return e.a.equals(this.a)&&e.b.equals(this.b)&&e.c.equals(this.c)}},Ri=class{constructor(e=new Q(1/0,1/0,1/0),t=new Q(-1/0,-1/0,-1/0)){this.isBox3=!0,this.min=e,this.max=t}set(e,t){return this.min.copy(e),this.max.copy(t),this}setFromArray(e){this.makeEmpty();for(let t=0,n=e.length;t<n;t+=3)this.expandByPoint(Bn.fromArray(e,t));return this}setFromBufferAttribute(e){this.makeEmpty();for(let t=0,n=e.count;t<n;t++)this.expandByPoint(Bn.fromBufferAttribute(e,t));return this}setFromPoints(e){this.makeEmpty();for(let t=0,n=e.length;t<n;t++)this.expandByPoint(e[t]);return this}setFromCenterAndSize(e,t){let n=Bn.copy(t).multiplyScalar(.5);return this.min.copy(e).sub(n),this.max.copy(e).add(n),this}setFromObject(e,t=!1){return this.makeEmpty(),this.expandByObject(e,t)}clone(){return new this.constructor().copy(this)}copy(e){return this.min.copy(e.min),this.max.copy(e.max),this}makeEmpty(){return this.min.x=this.min.y=this.min.z=1/0,this.max.x=this.max.y=this.max.z=-1/0,this}isEmpty(){return this.max.x<this.min.x||this.max.y<this.min.y||this.max.z<this.min.z}getCenter(e){return this.isEmpty()?e.set(0,0,0):e.addVectors(this.min,this.max).multiplyScalar(.5)}getSize(e){return this.isEmpty()?e.set(0,0,0):e.subVectors(this.max,this.min)}expandByPoint(e){return this.min.min(e),this.max.max(e),this}expandByVector(e){return this.min.sub(e),this.max.add(e),this}expandByScalar(e){return this.min.addScalar(-e),this.max.addScalar(e),this}expandByObject(e,t=!1){e.updateWorldMatrix(!1,!1);let n=e.geometry;if(n!==void 0){let o=n.getAttribute("position");if(t===!0&&o!==void 0&&e.isInstancedMesh!==!0&&e.isBatchedMesh!==!0)for(let c=0,h=o.count;c<h;c++)e.isMesh===!0?e.getVertexPosition(c,Bn):Bn.fromBufferAttribute(o,c),Bn.applyMatrix4(e.matrixWorld),this.expandByPoint(Bn);else e.boundingBox!==void 0?(e.boundingBox===null&&e.computeBoundingBox(),aa.copy(e.boundingBox)):(n.boundingBox===null&&n.computeBoundingBox(),aa.copy(n.boundingBox)),aa.applyMatrix4(e.matrixWorld),this.union(aa)}let s=e.children;for(let o=0,c=s.length;o<c;o++)this.expandByObject(s[o],t);return this}containsPoint(e){return e.x>=this.min.x&&e.x<=this.max.x&&e.y>=this.min.y&&e.y<=this.max.y&&e.z>=this.min.z&&e.z<=this.max.z}containsBox(e){return this.min.x<=e.min.x&&e.max.x<=this.max.x&&this.min.y<=e.min.y&&e.max.y<=this.max.y&&this.min.z<=e.min.z&&e.max.z<=this.max.z}getParameter(e,t){return t.set((e.x-this.min.x)/(this.max.x-this.min.x),(e.y-this.min.y)/(this.max.y-this.min.y),(e.z-this.min.z)/(this.max.z-this.min.z))}intersectsBox(e){return e.max.x>=this.min.x&&e.min.x<=this.max.x&&e.max.y>=this.min.y&&e.min.y<=this.max.y&&e.max.z>=this.min.z&&e.min.z<=this.max.z}intersectsSphere(e){return this.clampPoint(e.center,Bn),Bn.distanceToSquared(e.center)<=e.radius*e.radius}intersectsPlane(e){let t,n;return e.normal.x>0?(t=e.normal.x*this.min.x,n=e.normal.x*this.max.x):(t=e.normal.x*this.max.x,n=e.normal.x*this.min.x),e.normal.y>0?(t+=e.normal.y*this.min.y,n+=e.normal.y*this.max.y):(t+=e.normal.y*this.max.y,n+=e.normal.y*this.min.y),e.normal.z>0?(t+=e.normal.z*this.min.z,n+=e.normal.z*this.max.z):(t+=e.normal.z*this.max.z,n+=e.normal.z*this.min.z),t<=-e.constant&&n>=-e.constant}intersectsTriangle(e){if(this.isEmpty())return!1;this.getCenter(jr),oa.subVectors(this.max,jr),mr.subVectors(e.a,jr),gr.subVectors(e.b,jr),_r.subVectors(e.c,jr),Ei.subVectors(gr,mr),Ti.subVectors(_r,gr),$i.subVectors(mr,_r);let t=[0,-Ei.z,Ei.y,0,-Ti.z,Ti.y,0,-$i.z,$i.y,Ei.z,0,-Ei.x,Ti.z,0,-Ti.x,$i.z,0,-$i.x,-Ei.y,Ei.x,0,-Ti.y,Ti.x,0,-$i.y,$i.x,0];return!Ul(t,mr,gr,_r,oa)||(t=[1,0,0,0,1,0,0,0,1],!Ul(t,mr,gr,_r,oa))?!1:(la.crossVectors(Ei,Ti),t=[la.x,la.y,la.z],Ul(t,mr,gr,_r,oa))}clampPoint(e,t){return t.copy(e).clamp(this.min,this.max)}distanceToPoint(e){return this.clampPoint(e,Bn).distanceTo(e)}getBoundingSphere(e){return this.isEmpty()?e.makeEmpty():(this.getCenter(e.center),e.radius=this.getSize(Bn).length()*.5),e}intersect(e){return this.min.max(e.min),this.max.min(e.max),this.isEmpty()&&this.makeEmpty(),this}union(e){return this.min.min(e.min),this.max.max(e.max),this}applyMatrix4(e){return this.isEmpty()?this:(di[0].set(this.min.x,this.min.y,this.min.z).applyMatrix4(e),di[1].set(this.min.x,this.min.y,this.max.z).applyMatrix4(e),di[2].set(this.min.x,this.max.y,this.min.z).applyMatrix4(e),di[3].set(this.min.x,this.max.y,this.max.z).applyMatrix4(e),di[4].set(this.max.x,this.min.y,this.min.z).applyMatrix4(e),di[5].set(this.max.x,this.min.y,this.max.z).applyMatrix4(e),di[6].set(this.max.x,this.max.y,this.min.z).applyMatrix4(e),di[7].set(this.max.x,this.max.y,this.max.z).applyMatrix4(e),this.setFromPoints(di),this)}translate(e){return this.min.add(e),this.max.add(e),this}equals(e){return e.min.equals(this.min)&&e.max.equals(this.max)}toJSON(){return{min:this.min.toArray(),max:this.max.toArray()}}fromJSON(e){return this.min.fromArray(e.min),this.max.fromArray(e.max),this}},di=[new Q,new Q,new Q,new Q,new Q,new Q,new Q,new Q],Bn=new Q,aa=new Ri,mr=new Q,gr=new Q,_r=new Q,Ei=new Q,Ti=new Q,$i=new Q,jr=new Q,oa=new Q,la=new Q,qi=new Q;function Ul(i,e,t,n,s){for(let o=0,c=i.length-3;o<=c;o+=3){qi.fromArray(i,o);let h=s.x*Math.abs(qi.x)+s.y*Math.abs(qi.y)+s.z*Math.abs(qi.z),f=e.dot(qi),d=t.dot(qi),m=n.dot(qi);if(Math.max(-Math.max(f,d,m),Math.min(f,d,m))>h)return!1}return!0}var $t=new Q,ca=new gt,y0=0,Qn=class extends ei{constructor(e,t,n=!1){if(super(),Array.isArray(e))throw new TypeError("THREE.BufferAttribute: array should be a Typed Array.");this.isBufferAttribute=!0,Object.defineProperty(this,"id",{value:y0++}),this.name="",this.array=e,this.itemSize=t,this.count=e!==void 0?e.length/t:0,this.normalized=n,this.usage=Gu,this.updateRanges=[],this.gpuType=Gn,this.version=0,this._normalizationScale=e!==void 0?Ac(e):void 0}onUploadCallback(){}set needsUpdate(e){e===!0&&this.version++}setUsage(e){return this.usage=e,this}addUpdateRange(e,t){this.updateRanges.push({start:e,count:t})}clearUpdateRanges(){this.updateRanges.length=0}copy(e){return this.name=e.name,this.array=new e.array.constructor(e.array),this.itemSize=e.itemSize,this.count=e.count,this.normalized=e.normalized,this.usage=e.usage,this.gpuType=e.gpuType,this._normalizationScale=e._normalizationScale,this}copyAt(e,t,n){e*=this.itemSize,n*=t.itemSize;for(let s=0,o=this.itemSize;s<o;s++)this.array[e+s]=t.array[n+s];return this}copyArray(e){return this.array.set(e),this}applyMatrix3(e){if(this.itemSize===2)for(let t=0,n=this.count;t<n;t++)ca.fromBufferAttribute(this,t),ca.applyMatrix3(e),this.setXY(t,ca.x,ca.y);else if(this.itemSize===3)for(let t=0,n=this.count;t<n;t++)$t.fromBufferAttribute(this,t),$t.applyMatrix3(e),this.setXYZ(t,$t.x,$t.y,$t.z);return this}applyMatrix4(e){for(let t=0,n=this.count;t<n;t++)$t.fromBufferAttribute(this,t),$t.applyMatrix4(e),this.setXYZ(t,$t.x,$t.y,$t.z);return this}applyNormalMatrix(e){for(let t=0,n=this.count;t<n;t++)$t.fromBufferAttribute(this,t),$t.applyNormalMatrix(e),this.setXYZ(t,$t.x,$t.y,$t.z);return this}transformDirection(e){for(let t=0,n=this.count;t<n;t++)$t.fromBufferAttribute(this,t),$t.transformDirection(e),this.setXYZ(t,$t.x,$t.y,$t.z);return this}set(e,t=0){return this.array.set(e,t),this}getComponent(e,t){let n=this.array[e*this.itemSize+t];return this.normalized&&(n=this._denormalize(n)),n}setComponent(e,t,n){return this.normalized&&(n=this._normalize(n)),this.array[e*this.itemSize+t]=n,this}getX(e){let t=this.array[e*this.itemSize];return this.normalized&&(t=this._denormalize(t)),t}setX(e,t){return this.normalized&&(t=this._normalize(t)),this.array[e*this.itemSize]=t,this}getY(e){let t=this.array[e*this.itemSize+1];return this.normalized&&(t=this._denormalize(t)),t}setY(e,t){return this.normalized&&(t=this._normalize(t)),this.array[e*this.itemSize+1]=t,this}getZ(e){let t=this.array[e*this.itemSize+2];return this.normalized&&(t=this._denormalize(t)),t}setZ(e,t){return this.normalized&&(t=this._normalize(t)),this.array[e*this.itemSize+2]=t,this}getW(e){let t=this.array[e*this.itemSize+3];return this.normalized&&(t=this._denormalize(t)),t}setW(e,t){return this.normalized&&(t=this._normalize(t)),this.array[e*this.itemSize+3]=t,this}setXY(e,t,n){return e*=this.itemSize,this.normalized&&(t=this._normalize(t),n=this._normalize(n)),this.array[e+0]=t,this.array[e+1]=n,this}setXYZ(e,t,n,s){return e*=this.itemSize,this.normalized&&(t=this._normalize(t),n=this._normalize(n),s=this._normalize(s)),this.array[e+0]=t,this.array[e+1]=n,this.array[e+2]=s,this}setXYZW(e,t,n,s,o){return e*=this.itemSize,this.normalized&&(t=this._normalize(t),n=this._normalize(n),s=this._normalize(s),o=this._normalize(o)),this.array[e+0]=t,this.array[e+1]=n,this.array[e+2]=s,this.array[e+3]=o,this}onUpload(e){return this.onUploadCallback=e,this}clone(){return new this.constructor(this.array,this.itemSize).copy(this)}toJSON(){let e={itemSize:this.itemSize,type:this.array.constructor.name,array:Array.from(this.array),normalized:this.normalized};return e.name=this.name,e.usage=this.usage,e.gpuType=this.gpuType,e}dispose(){this.dispatchEvent({type:"dispose"})}_denormalize(e){let t=this._normalizationScale;return t!==void 0?Math.max(e/t,-1):$u(e,this.array)}_normalize(e){let t=this._normalizationScale;return t!==void 0?Math.round(e*t):qu(e,this.array)}};var ls=class extends Qn{constructor(e,t,n){super(new Uint16Array(e),t,n)}};var cs=class extends Qn{constructor(e,t,n){super(new Uint32Array(e),t,n)}};var Wt=class extends Qn{constructor(e,t,n){super(new Float32Array(e),t,n)}},x0=new Ri,Jr=new Q,Ol=new Q,Zi=class{constructor(e=new Q,t=-1){this.isSphere=!0,this.center=e,this.radius=t}set(e,t){return this.center.copy(e),this.radius=t,this}setFromPoints(e,t){let n=this.center;t!==void 0?n.copy(t):x0.setFromPoints(e).getCenter(n);let s=0;for(let o=0,c=e.length;o<c;o++)s=Math.max(s,n.distanceToSquared(e[o]));return this.radius=Math.sqrt(s),this}copy(e){return this.center.copy(e.center),this.radius=e.radius,this}isEmpty(){return this.radius<0}makeEmpty(){return this.center.set(0,0,0),this.radius=-1,this}containsPoint(e){return e.distanceToSquared(this.center)<=this.radius*this.radius}distanceToPoint(e){return e.distanceTo(this.center)-this.radius}intersectsSphere(e){let t=this.radius+e.radius;return e.center.distanceToSquared(this.center)<=t*t}intersectsBox(e){return e.intersectsSphere(this)}intersectsPlane(e){return Math.abs(e.distanceToPoint(this.center))<=this.radius}clampPoint(e,t){let n=this.center.distanceToSquared(e);return t.copy(e),n>this.radius*this.radius&&(t.sub(this.center).normalize(),t.multiplyScalar(this.radius).add(this.center)),t}getBoundingBox(e){return this.isEmpty()?(e.makeEmpty(),e):(e.set(this.center,this.center),e.expandByScalar(this.radius),e)}applyMatrix4(e){return this.center.applyMatrix4(e),this.radius=this.radius*e.getMaxScaleOnAxis(),this}translate(e){return this.center.add(e),this}expandByPoint(e){if(this.isEmpty())return this.center.copy(e),this.radius=0,this;Jr.subVectors(e,this.center);let t=Jr.lengthSq();if(t>this.radius*this.radius){let n=Math.sqrt(t),s=(n-this.radius)*.5;this.center.addScaledVector(Jr,s/n),this.radius+=s}return this}union(e){return e.isEmpty()?this:this.isEmpty()?(this.copy(e),this):(this.center.equals(e.center)===!0?this.radius=Math.max(this.radius,e.radius):(Ol.subVectors(e.center,this.center).setLength(e.radius),this.expandByPoint(Jr.copy(e.center).add(Ol)),this.expandByPoint(Jr.copy(e.center).sub(Ol))),this)}equals(e){return e.center.equals(this.center)&&e.radius===this.radius}clone(){return new this.constructor().copy(this)}toJSON(){return{radius:this.radius,center:this.center.toArray()}}fromJSON(e){return this.radius=e.radius,this.center.fromArray(e.center),this}},S0=0,Pn=new It,Bl=new ln,vr=new Q,wn=new Ri,Zr=new Ri,rn=new Q,xn=class i extends ei{constructor(){super(),this.isBufferGeometry=!0,Object.defineProperty(this,"id",{value:S0++}),this.uuid=kr(),this.name="",this.type="BufferGeometry",this.index=null,this.indirect=null,this.indirectOffset=0,this.attributes={},this.morphAttributes={},this.morphTargetsRelative=!1,this.groups=[],this.boundingBox=null,this.boundingSphere=null,this.drawRange={start:0,count:1/0},this.userData={},this._transformed=!1}getIndex(){return this.index}setIndex(e){return Array.isArray(e)?this.index=new($_(e)?cs:ls)(e,1):this.index=e,this}setIndirect(e,t=0){return this.indirect=e,this.indirectOffset=t,this}getIndirect(){return this.indirect}getAttribute(e){return this.attributes[e]}setAttribute(e,t){return this.attributes[e]=t,this}deleteAttribute(e){return delete this.attributes[e],this}hasAttribute(e){return this.attributes[e]!==void 0}addGroup(e,t,n=0){this.groups.push({start:e,count:t,materialIndex:n})}clearGroups(){this.groups=[]}setDrawRange(e,t){this.drawRange.start=e,this.drawRange.count=t}applyMatrix4(e){let t=this.attributes.position;t!==void 0&&(t.applyMatrix4(e),t.needsUpdate=!0);let n=this.attributes.normal;if(n!==void 0){let o=new at().getNormalMatrix(e);n.applyNormalMatrix(o),n.needsUpdate=!0}let s=this.attributes.tangent;return s!==void 0&&(s.transformDirection(e),s.needsUpdate=!0),this.boundingBox!==null&&this.computeBoundingBox(),this.boundingSphere!==null&&this.computeBoundingSphere(),this._transformed=!0,this}applyQuaternion(e){return Pn.makeRotationFromQuaternion(e),this.applyMatrix4(Pn),this}rotateX(e){return Pn.makeRotationX(e),this.applyMatrix4(Pn),this}rotateY(e){return Pn.makeRotationY(e),this.applyMatrix4(Pn),this}rotateZ(e){return Pn.makeRotationZ(e),this.applyMatrix4(Pn),this}translate(e,t,n){return Pn.makeTranslation(e,t,n),this.applyMatrix4(Pn),this}scale(e,t,n){return Pn.makeScale(e,t,n),this.applyMatrix4(Pn),this}lookAt(e){return Bl.lookAt(e),Bl.updateMatrix(),this.applyMatrix4(Bl.matrix),this}center(){return this.computeBoundingBox(),this.boundingBox.getCenter(vr).negate(),this.translate(vr.x,vr.y,vr.z),this}setFromPoints(e){let t=this.getAttribute("position");if(t===void 0){let n=[];for(let s=0,o=e.length;s<o;s++){let c=e[s];n.push(c.x,c.y,c.z||0)}this.setAttribute("position",new Wt(n,3))}else{let n=Math.min(e.length,t.count);for(let s=0;s<n;s++){let o=e[s];t.setXYZ(s,o.x,o.y,o.z||0)}e.length>t.count&&et("BufferGeometry: Buffer size too small for points data. Use .dispose() and create a new geometry."),t.needsUpdate=!0}return this}computeBoundingBox(){this.boundingBox===null&&(this.boundingBox=new Ri);let e=this.attributes.position,t=this.morphAttributes.position;if(e&&e.isGLBufferAttribute){tt("BufferGeometry.computeBoundingBox(): GLBufferAttribute requires a manual bounding box.",this),this.boundingBox.set(new Q(-1/0,-1/0,-1/0),new Q(1/0,1/0,1/0));return}if(e!==void 0){if(this.boundingBox.setFromBufferAttribute(e),t)for(let n=0,s=t.length;n<s;n++){let o=t[n];wn.setFromBufferAttribute(o),this.morphTargetsRelative?(rn.addVectors(this.boundingBox.min,wn.min),this.boundingBox.expandByPoint(rn),rn.addVectors(this.boundingBox.max,wn.max),this.boundingBox.expandByPoint(rn)):(this.boundingBox.expandByPoint(wn.min),this.boundingBox.expandByPoint(wn.max))}}else this.boundingBox.makeEmpty();(isNaN(this.boundingBox.min.x)||isNaN(this.boundingBox.min.y)||isNaN(this.boundingBox.min.z))&&tt('BufferGeometry.computeBoundingBox(): Computed min/max have NaN values. The "position" attribute is likely to have NaN values.',this)}computeBoundingSphere(){this.boundingSphere===null&&(this.boundingSphere=new Zi);let e=this.attributes.position,t=this.morphAttributes.position;if(e&&e.isGLBufferAttribute){tt("BufferGeometry.computeBoundingSphere(): GLBufferAttribute requires a manual bounding sphere.",this),this.boundingSphere.set(new Q,1/0);return}if(e){let n=this.boundingSphere.center;if(wn.setFromBufferAttribute(e),t)for(let o=0,c=t.length;o<c;o++){let h=t[o];Zr.setFromBufferAttribute(h),this.morphTargetsRelative?(rn.addVectors(wn.min,Zr.min),wn.expandByPoint(rn),rn.addVectors(wn.max,Zr.max),wn.expandByPoint(rn)):(wn.expandByPoint(Zr.min),wn.expandByPoint(Zr.max))}wn.getCenter(n);let s=0;for(let o=0,c=e.count;o<c;o++)rn.fromBufferAttribute(e,o),s=Math.max(s,n.distanceToSquared(rn));if(t)for(let o=0,c=t.length;o<c;o++){let h=t[o],f=this.morphTargetsRelative;for(let d=0,m=h.count;d<m;d++)rn.fromBufferAttribute(h,d),f&&(vr.fromBufferAttribute(e,d),rn.add(vr)),s=Math.max(s,n.distanceToSquared(rn))}this.boundingSphere.radius=Math.sqrt(s),isNaN(this.boundingSphere.radius)&&tt('BufferGeometry.computeBoundingSphere(): Computed radius is NaN. The "position" attribute is likely to have NaN values.',this)}}computeTangents(){let e=this.index,t=this.attributes;if(e===null||t.position===void 0||t.normal===void 0||t.uv===void 0){tt("BufferGeometry: .computeTangents() failed. Missing required attributes (index, position, normal or uv)");return}let n=t.position,s=t.normal,o=t.uv,c=this.getAttribute("tangent");(c===void 0||c.count!==n.count)&&(c=new Qn(new Float32Array(4*n.count),4),this.setAttribute("tangent",c));let h=[],f=[],d=new Uint8Array(n.count);for(let q=0;q<n.count;q++)h[q]=new Q,f[q]=new Q;let m=new Q,v=new Q,g=new Q,S=new gt,w=new gt,R=new gt,x=new Q,y=new Q;function I(q,k,Y){d[q]=d[k]=d[Y]=1,m.fromBufferAttribute(n,q),v.fromBufferAttribute(n,k),g.fromBufferAttribute(n,Y),S.fromBufferAttribute(o,q),w.fromBufferAttribute(o,k),R.fromBufferAttribute(o,Y),v.sub(m),g.sub(m),w.sub(S),R.sub(S);let J=1/(w.x*R.y-R.x*w.y);isFinite(J)&&(x.copy(v).multiplyScalar(R.y).addScaledVector(g,-w.y).multiplyScalar(J),y.copy(g).multiplyScalar(w.x).addScaledVector(v,-R.x).multiplyScalar(J),h[q].add(x),h[k].add(x),h[Y].add(x),f[q].add(y),f[k].add(y),f[Y].add(y))}let O=this.groups;O.length===0&&(O=[{start:0,count:e.count}]);for(let q=0,k=O.length;q<k;++q){let Y=O[q],J=Y.start,ee=Y.count;for(let z=J,ie=J+ee;z<ie;z+=3)I(e.getX(z+0),e.getX(z+1),e.getX(z+2))}let P=new Q,U=new Q,N=new Q,b=new Q;function L(q){N.fromBufferAttribute(s,q),b.copy(N);let k=h[q];P.copy(k),P.sub(N.multiplyScalar(N.dot(k))).normalize(),U.crossVectors(b,k);let J=U.dot(f[q])<0?-1:1;c.setXYZW(q,P.x,P.y,P.z,J)}for(let q=0,k=n.count;q<k;++q)d[q]&&L(q);this._transformed=!0}computeVertexNormals(){let e=this.index,t=this.getAttribute("position");if(t!==void 0){let n=this.getAttribute("normal");if(n===void 0||n.count!==t.count)n=new Qn(new Float32Array(t.count*3),3),this.setAttribute("normal",n);else for(let g=0,S=n.count;g<S;g++)n.setXYZ(g,0,0,0);let s=new Q,o=new Q,c=new Q,h=new Q,f=new Q,d=new Q,m=new Q,v=new Q;if(e)for(let g=0,S=e.count;g<S;g+=3){let w=e.getX(g+0),R=e.getX(g+1),x=e.getX(g+2);s.fromBufferAttribute(t,w),o.fromBufferAttribute(t,R),c.fromBufferAttribute(t,x),m.subVectors(c,o),v.subVectors(s,o),m.cross(v),h.fromBufferAttribute(n,w),f.fromBufferAttribute(n,R),d.fromBufferAttribute(n,x),h.add(m),f.add(m),d.add(m),n.setXYZ(w,h.x,h.y,h.z),n.setXYZ(R,f.x,f.y,f.z),n.setXYZ(x,d.x,d.y,d.z)}else for(let g=0,S=t.count;g<S;g+=3)s.fromBufferAttribute(t,g+0),o.fromBufferAttribute(t,g+1),c.fromBufferAttribute(t,g+2),m.subVectors(c,o),v.subVectors(s,o),m.cross(v),n.setXYZ(g+0,m.x,m.y,m.z),n.setXYZ(g+1,m.x,m.y,m.z),n.setXYZ(g+2,m.x,m.y,m.z);this.normalizeNormals(),n.needsUpdate=!0}}normalizeNormals(){let e=this.attributes.normal;for(let t=0,n=e.count;t<n;t++)rn.fromBufferAttribute(e,t),rn.normalize(),e.setXYZ(t,rn.x,rn.y,rn.z)}toNonIndexed(){function e(h,f){let d=h.array,m=h.itemSize,v=h.normalized,g=new d.constructor(f.length*m),S=0,w=0;for(let R=0,x=f.length;R<x;R++){h.isInterleavedBufferAttribute?S=f[R]*h.data.stride+h.offset:S=f[R]*m;for(let y=0;y<m;y++)g[w++]=d[S++]}return new Qn(g,m,v)}if(this.index===null)return et("BufferGeometry.toNonIndexed(): BufferGeometry is already non-indexed."),this;let t=new i,n=this.index.array,s=this.attributes;for(let h in s){let f=s[h],d=e(f,n);t.setAttribute(h,d)}let o=this.morphAttributes;for(let h in o){let f=[],d=o[h];for(let m=0,v=d.length;m<v;m++){let g=d[m],S=e(g,n);f.push(S)}t.morphAttributes[h]=f}t.morphTargetsRelative=this.morphTargetsRelative;let c=this.groups;for(let h=0,f=c.length;h<f;h++){let d=c[h];t.addGroup(d.start,d.count,d.materialIndex)}return t}toJSON(){let e={metadata:{version:4.7,type:"BufferGeometry",generator:"BufferGeometry.toJSON"}};if(e.uuid=this.uuid,e.type=this.parameters!==void 0&&this._transformed===!0?"BufferGeometry":this.type,e.name=this.name,Object.keys(this.userData).length>0&&(e.userData=this.userData),this.parameters!==void 0&&this._transformed!==!0){let f=this.parameters;for(let d in f)f[d]!==void 0&&(e[d]=f[d]);return e}e.data={attributes:{}};let t=this.index;t!==null&&(e.data.index={type:t.array.constructor.name,array:Array.prototype.slice.call(t.array)});let n=this.attributes;for(let f in n){let d=n[f];e.data.attributes[f]=d.toJSON(e.data)}let s={},o=!1;for(let f in this.morphAttributes){let d=this.morphAttributes[f],m=[];for(let v=0,g=d.length;v<g;v++){let S=d[v];m.push(S.toJSON(e.data))}m.length>0&&(s[f]=m,o=!0)}o&&(e.data.morphAttributes=s,e.data.morphTargetsRelative=this.morphTargetsRelative);let c=this.groups;c.length>0&&(e.data.groups=JSON.parse(JSON.stringify(c)));let h=this.boundingSphere;return h!==null&&(e.data.boundingSphere=h.toJSON()),e}clone(){return new this.constructor().copy(this)}copy(e){this.index=null,this.attributes={},this.morphAttributes={},this.groups=[],this.boundingBox=null,this.boundingSphere=null;let t={};this.name=e.name;let n=e.index;n!==null&&this.setIndex(n.clone());let s=e.attributes;for(let d in s){let m=s[d];this.setAttribute(d,m.clone(t))}let o=e.morphAttributes;for(let d in o){let m=[],v=o[d];for(let g=0,S=v.length;g<S;g++)m.push(v[g].clone(t));this.morphAttributes[d]=m}this.morphTargetsRelative=e.morphTargetsRelative;let c=e.groups;for(let d=0,m=c.length;d<m;d++){let v=c[d];this.addGroup(v.start,v.count,v.materialIndex)}let h=e.boundingBox;h!==null&&(this.boundingBox=h.clone());let f=e.boundingSphere;return f!==null&&(this.boundingSphere=f.clone()),this.drawRange.start=e.drawRange.start,this.drawRange.count=e.drawRange.count,this.userData=e.userData,this._transformed=e._transformed,this}dispose(){this.dispatchEvent({type:"dispose"})}};var kl=new Q,M0=new Q,b0=new at,kn=class{constructor(e=new Q(1,0,0),t=0){this.isPlane=!0,this.normal=e,this.constant=t}set(e,t){return this.normal.copy(e),this.constant=t,this}setComponents(e,t,n,s){return this.normal.set(e,t,n),this.constant=s,this}setFromNormalAndCoplanarPoint(e,t){return this.normal.copy(e),this.constant=-t.dot(this.normal),this}setFromCoplanarPoints(e,t,n){let s=kl.subVectors(n,t).cross(M0.subVectors(e,t)).normalize();return this.setFromNormalAndCoplanarPoint(s,e),this}copy(e){return this.normal.copy(e.normal),this.constant=e.constant,this}normalize(){let e=1/this.normal.length();return this.normal.multiplyScalar(e),this.constant*=e,this}negate(){return this.constant*=-1,this.normal.negate(),this}distanceToPoint(e){return this.normal.dot(e)+this.constant}distanceToSphere(e){return this.distanceToPoint(e.center)-e.radius}projectPoint(e,t){return t.copy(e).addScaledVector(this.normal,-this.distanceToPoint(e))}intersectLine(e,t,n=!0){let s=e.delta(kl),o=this.normal.dot(s);if(o===0)return this.distanceToPoint(e.start)===0?t.copy(e.start):null;let c=-(e.start.dot(this.normal)+this.constant)/o;return n===!0&&(c<0||c>1)?null:t.copy(e.start).addScaledVector(s,c)}intersectsLine(e){let t=this.distanceToPoint(e.start),n=this.distanceToPoint(e.end);return t<0&&n>0||n<0&&t>0}intersectsBox(e){return e.intersectsPlane(this)}intersectsSphere(e){return e.intersectsPlane(this)}coplanarPoint(e){return e.copy(this.normal).multiplyScalar(-this.constant)}applyMatrix4(e,t){let n=t||b0.getNormalMatrix(e),s=this.coplanarPoint(kl).applyMatrix4(e),o=this.normal.applyMatrix3(n).normalize();return this.constant=-s.dot(o),this}translate(e){return this.constant-=e.dot(this.normal),this}equals(e){return e.normal.equals(this.normal)&&e.constant===this.constant}clone(){return new this.constructor().copy(this)}toJSON(){return{normal:this.normal.toArray(),constant:this.constant}}fromJSON(e){return this.normal.fromArray(e.normal),this.constant=e.constant,this}},w0=0,_i=class extends ei{constructor(){super(),this.isMaterial=!0,Object.defineProperty(this,"id",{value:w0++}),this.uuid=kr(),this.name="",this.type="Material",this.blending=Ur,this.side=Ni,this.vertexColors=!1,this.opacity=1,this.transparent=!1,this.alphaHash=!1,this.blendSrc=nc,this.blendDst=ic,this.blendEquation=er,this.blendSrcAlpha=null,this.blendDstAlpha=null,this.blendEquationAlpha=null,this.blendColor=new ut(0,0,0),this.blendAlpha=0,this.depthFunc=br,this.depthTest=!0,this.depthWrite=!0,this.stencilWriteMask=255,this.stencilFunc=Nu,this.stencilRef=0,this.stencilFuncMask=255,this.stencilFail=Ta,this.stencilZFail=Ta,this.stencilZPass=Ta,this.stencilWrite=!1,this.clippingPlanes=null,this.clipIntersection=!1,this.clipShadows=!1,this.shadowSide=null,this.colorWrite=!0,this.precision=null,this.polygonOffset=!1,this.polygonOffsetFactor=0,this.polygonOffsetUnits=0,this.dithering=!1,this.alphaToCoverage=!1,this.premultipliedAlpha=!1,this.forceSinglePass=!1,this.allowOverride=!0,this.visible=!0,this.toneMapped=!0,this.userData={},this.version=0,this._alphaTest=0}get alphaTest(){return this._alphaTest}set alphaTest(e){this._alphaTest>0!=e>0&&this.version++,this._alphaTest=e}onBeforeRender(){}onBeforeCompile(){}customProgramCacheKey(){return this.onBeforeCompile.toString()}setValues(e){if(e!==void 0)for(let t in e){let n=e[t];if(n===void 0){et(`Material: parameter '${t}' has value of undefined.`);continue}let s=this[t];if(s===void 0){et(`Material: '${t}' is not a property of THREE.${this.type}.`);continue}s&&s.isColor?s.set(n):s&&s.isVector2&&n&&n.isVector2||s&&s.isEuler&&n&&n.isEuler||s&&s.isVector3&&n&&n.isVector3?s.copy(n):this[t]=n}}toJSON(e){let t=e===void 0||typeof e=="string";t&&(e={textures:{},images:{}});let n={metadata:{version:4.7,type:"Material",generator:"Material.toJSON"}};n.uuid=this.uuid,n.type=this.type,n.blending=this.blending,n.side=this.side,n.shadowSide=this.shadowSide,n.vertexColors=this.vertexColors,n.opacity=this.opacity,n.transparent=this.transparent,n.blendSrc=this.blendSrc,n.blendDst=this.blendDst,n.blendEquation=this.blendEquation,n.blendSrcAlpha=this.blendSrcAlpha,n.blendDstAlpha=this.blendDstAlpha,n.blendEquationAlpha=this.blendEquationAlpha,n.blendColor=this.blendColor.getHex(),n.blendAlpha=this.blendAlpha,n.depthFunc=this.depthFunc,n.depthTest=this.depthTest,n.depthWrite=this.depthWrite,n.colorWrite=this.colorWrite,n.clipIntersection=this.clipIntersection,n.clipShadows=this.clipShadows,n.stencilWriteMask=this.stencilWriteMask,n.stencilFunc=this.stencilFunc,n.stencilRef=this.stencilRef,n.stencilFuncMask=this.stencilFuncMask,n.stencilFail=this.stencilFail,n.stencilZFail=this.stencilZFail,n.stencilZPass=this.stencilZPass,n.stencilWrite=this.stencilWrite,n.polygonOffset=this.polygonOffset,n.polygonOffsetFactor=this.polygonOffsetFactor,n.polygonOffsetUnits=this.polygonOffsetUnits,n.dithering=this.dithering,n.alphaTest=this.alphaTest,n.alphaHash=this.alphaHash,n.alphaToCoverage=this.alphaToCoverage,n.premultipliedAlpha=this.premultipliedAlpha,n.forceSinglePass=this.forceSinglePass,n.allowOverride=this.allowOverride,n.visible=this.visible,n.toneMapped=this.toneMapped,n.name=this.name,this.color&&this.color.isColor&&(n.color=this.color.getHex()),this.roughness!==void 0&&(n.roughness=this.roughness),this.metalness!==void 0&&(n.metalness=this.metalness),this.sheen!==void 0&&(n.sheen=this.sheen),this.sheenColor&&this.sheenColor.isColor&&(n.sheenColor=this.sheenColor.getHex()),this.sheenRoughness!==void 0&&(n.sheenRoughness=this.sheenRoughness),this.emissive&&this.emissive.isColor&&(n.emissive=this.emissive.getHex()),this.emissiveIntensity!==void 0&&(n.emissiveIntensity=this.emissiveIntensity),this.specular&&this.specular.isColor&&(n.specular=this.specular.getHex()),this.specularIntensity!==void 0&&(n.specularIntensity=this.specularIntensity),this.specularColor&&this.specularColor.isColor&&(n.specularColor=this.specularColor.getHex()),this.shininess!==void 0&&(n.shininess=this.shininess),this.clearcoat!==void 0&&(n.clearcoat=this.clearcoat),this.clearcoatRoughness!==void 0&&(n.clearcoatRoughness=this.clearcoatRoughness),this.diffuseRoughness!==void 0&&(n.diffuseRoughness=this.diffuseRoughness),this.diffuseRoughnessMap&&this.diffuseRoughnessMap.isTexture&&(n.diffuseRoughnessMap=this.diffuseRoughnessMap.toJSON(e).uuid),this.clearcoatMap&&this.clearcoatMap.isTexture&&(n.clearcoatMap=this.clearcoatMap.toJSON(e).uuid),this.clearcoatRoughnessMap&&this.clearcoatRoughnessMap.isTexture&&(n.clearcoatRoughnessMap=this.clearcoatRoughnessMap.toJSON(e).uuid),this.clearcoatNormalMap&&this.clearcoatNormalMap.isTexture&&(n.clearcoatNormalMap=this.clearcoatNormalMap.toJSON(e).uuid,n.clearcoatNormalScale=this.clearcoatNormalScale.toArray()),this.sheenColorMap&&this.sheenColorMap.isTexture&&(n.sheenColorMap=this.sheenColorMap.toJSON(e).uuid),this.sheenRoughnessMap&&this.sheenRoughnessMap.isTexture&&(n.sheenRoughnessMap=this.sheenRoughnessMap.toJSON(e).uuid),this.dispersion!==void 0&&(n.dispersion=this.dispersion),this.retroreflectivity!==void 0&&(n.retroreflectivity=this.retroreflectivity),this.iridescence!==void 0&&(n.iridescence=this.iridescence),this.iridescenceIOR!==void 0&&(n.iridescenceIOR=this.iridescenceIOR),this.iridescenceThicknessMinimum!==void 0&&(n.iridescenceThicknessMinimum=this.iridescenceThicknessMinimum),this.iridescenceThicknessMaximum!==void 0&&(n.iridescenceThicknessMaximum=this.iridescenceThicknessMaximum),this.iridescenceMap&&this.iridescenceMap.isTexture&&(n.iridescenceMap=this.iridescenceMap.toJSON(e).uuid),this.iridescenceThicknessMap&&this.iridescenceThicknessMap.isTexture&&(n.iridescenceThicknessMap=this.iridescenceThicknessMap.toJSON(e).uuid),this.anisotropy!==void 0&&(n.anisotropy=this.anisotropy),this.anisotropyRotation!==void 0&&(n.anisotropyRotation=this.anisotropyRotation),this.anisotropyMap&&this.anisotropyMap.isTexture&&(n.anisotropyMap=this.anisotropyMap.toJSON(e).uuid),this.map&&this.map.isTexture&&(n.map=this.map.toJSON(e).uuid),this.matcap&&this.matcap.isTexture&&(n.matcap=this.matcap.toJSON(e).uuid),this.alphaMap&&this.alphaMap.isTexture&&(n.alphaMap=this.alphaMap.toJSON(e).uuid),this.lightMap&&this.lightMap.isTexture&&(n.lightMap=this.lightMap.toJSON(e).uuid,n.lightMapIntensity=this.lightMapIntensity),this.aoMap&&this.aoMap.isTexture&&(n.aoMap=this.aoMap.toJSON(e).uuid,n.aoMapIntensity=this.aoMapIntensity),this.bumpMap&&this.bumpMap.isTexture&&(n.bumpMap=this.bumpMap.toJSON(e).uuid,n.bumpScale=this.bumpScale),this.normalMap&&this.normalMap.isTexture&&(n.normalMap=this.normalMap.toJSON(e).uuid,n.normalMapType=this.normalMapType,n.normalScale=this.normalScale.toArray()),this.displacementMap&&this.displacementMap.isTexture&&(n.displacementMap=this.displacementMap.toJSON(e).uuid,n.displacementScale=this.displacementScale,n.displacementBias=this.displacementBias),this.roughnessMap&&this.roughnessMap.isTexture&&(n.roughnessMap=this.roughnessMap.toJSON(e).uuid),this.metalnessMap&&this.metalnessMap.isTexture&&(n.metalnessMap=this.metalnessMap.toJSON(e).uuid),this.emissiveMap&&this.emissiveMap.isTexture&&(n.emissiveMap=this.emissiveMap.toJSON(e).uuid),this.specularMap&&this.specularMap.isTexture&&(n.specularMap=this.specularMap.toJSON(e).uuid),this.specularIntensityMap&&this.specularIntensityMap.isTexture&&(n.specularIntensityMap=this.specularIntensityMap.toJSON(e).uuid),this.specularColorMap&&this.specularColorMap.isTexture&&(n.specularColorMap=this.specularColorMap.toJSON(e).uuid),this.envMap&&this.envMap.isTexture&&(n.envMap=this.envMap.toJSON(e).uuid,this.combine!==void 0&&(n.combine=this.combine)),this.envMapRotation!==void 0&&(n.envMapRotation=this.envMapRotation.toArray()),this.envMapIntensity!==void 0&&(n.envMapIntensity=this.envMapIntensity),this.reflectivity!==void 0&&(n.reflectivity=this.reflectivity),this.refractionRatio!==void 0&&(n.refractionRatio=this.refractionRatio),this.gradientMap&&this.gradientMap.isTexture&&(n.gradientMap=this.gradientMap.toJSON(e).uuid),this.transmission!==void 0&&(n.transmission=this.transmission),this.transmissionMap&&this.transmissionMap.isTexture&&(n.transmissionMap=this.transmissionMap.toJSON(e).uuid),this.thickness!==void 0&&(n.thickness=this.thickness),this.thicknessMap&&this.thicknessMap.isTexture&&(n.thicknessMap=this.thicknessMap.toJSON(e).uuid),this.attenuationDistance!==void 0&&(n.attenuationDistance=this.attenuationDistance),this.attenuationColor!==void 0&&(n.attenuationColor=this.attenuationColor.getHex()),this.size!==void 0&&(n.size=this.size),this.sizeAttenuation!==void 0&&(n.sizeAttenuation=this.sizeAttenuation),Array.isArray(this.clippingPlanes)&&this.clippingPlanes.length>0&&(n.clippingPlanes=this.clippingPlanes.map(o=>o.toJSON())),this.rotation!==void 0&&(n.rotation=this.rotation),this.depthPacking!==void 0&&(n.depthPacking=this.depthPacking),this.linewidth!==void 0&&(n.linewidth=this.linewidth),this.linecap!==void 0&&(n.linecap=this.linecap),this.linejoin!==void 0&&(n.linejoin=this.linejoin),this.dashSize!==void 0&&(n.dashSize=this.dashSize),this.gapSize!==void 0&&(n.gapSize=this.gapSize),this.scale!==void 0&&(n.scale=this.scale),this.wireframe!==void 0&&(n.wireframe=this.wireframe),this.wireframeLinewidth!==void 0&&(n.wireframeLinewidth=this.wireframeLinewidth),this.wireframeLinecap!==void 0&&(n.wireframeLinecap=this.wireframeLinecap),this.wireframeLinejoin!==void 0&&(n.wireframeLinejoin=this.wireframeLinejoin),this.flatShading!==void 0&&(n.flatShading=this.flatShading),this.fog!==void 0&&(n.fog=this.fog),Object.keys(this.userData).length>0&&(n.userData=this.userData);function s(o){let c=[];for(let h in o){let f=o[h];delete f.metadata,c.push(f)}return c}if(t){let o=s(e.textures),c=s(e.images);o.length>0&&(n.textures=o),c.length>0&&(n.images=c)}return n}fromJSON(e,t){if(e.uuid!==void 0&&(this.uuid=e.uuid),e.name!==void 0&&(this.name=e.name),e.color!==void 0&&this.color!==void 0&&this.color.setHex(e.color),e.roughness!==void 0&&(this.roughness=e.roughness),e.metalness!==void 0&&(this.metalness=e.metalness),e.sheen!==void 0&&(this.sheen=e.sheen),e.sheenColor!==void 0&&(this.sheenColor=new ut().setHex(e.sheenColor)),e.sheenRoughness!==void 0&&(this.sheenRoughness=e.sheenRoughness),e.emissive!==void 0&&this.emissive!==void 0&&this.emissive.setHex(e.emissive),e.specular!==void 0&&this.specular!==void 0&&this.specular.setHex(e.specular),e.specularIntensity!==void 0&&(this.specularIntensity=e.specularIntensity),e.specularColor!==void 0&&this.specularColor!==void 0&&this.specularColor.setHex(e.specularColor),e.shininess!==void 0&&(this.shininess=e.shininess),e.clearcoat!==void 0&&(this.clearcoat=e.clearcoat),e.clearcoatRoughness!==void 0&&(this.clearcoatRoughness=e.clearcoatRoughness),e.diffuseRoughness!==void 0&&(this.diffuseRoughness=e.diffuseRoughness),e.dispersion!==void 0&&(this.dispersion=e.dispersion),e.retroreflectivity!==void 0&&(this.retroreflectivity=e.retroreflectivity),e.iridescence!==void 0&&(this.iridescence=e.iridescence),e.iridescenceIOR!==void 0&&(this.iridescenceIOR=e.iridescenceIOR),e.iridescenceThicknessMinimum!==void 0&&(this.iridescenceThicknessMinimum=e.iridescenceThicknessMinimum),e.iridescenceThicknessMaximum!==void 0&&(this.iridescenceThicknessMaximum=e.iridescenceThicknessMaximum),e.iridescenceThicknessRange!==void 0&&(this.iridescenceThicknessMinimum=e.iridescenceThicknessRange[0],this.iridescenceThicknessMaximum=e.iridescenceThicknessRange[1]),e.transmission!==void 0&&(this.transmission=e.transmission),e.thickness!==void 0&&(this.thickness=e.thickness),e.attenuationDistance!==void 0&&(this.attenuationDistance=e.attenuationDistance),e.attenuationColor!==void 0&&this.attenuationColor!==void 0&&this.attenuationColor.setHex(e.attenuationColor),e.anisotropy!==void 0&&(this.anisotropy=e.anisotropy),e.anisotropyRotation!==void 0&&(this.anisotropyRotation=e.anisotropyRotation),e.fog!==void 0&&(this.fog=e.fog),e.flatShading!==void 0&&(this.flatShading=e.flatShading),e.blending!==void 0&&(this.blending=e.blending),e.combine!==void 0&&(this.combine=e.combine),e.side!==void 0&&(this.side=e.side),e.shadowSide!==void 0&&(this.shadowSide=e.shadowSide),e.opacity!==void 0&&(this.opacity=e.opacity),e.transparent!==void 0&&(this.transparent=e.transparent),e.alphaTest!==void 0&&(this.alphaTest=e.alphaTest),e.alphaHash!==void 0&&(this.alphaHash=e.alphaHash),e.depthFunc!==void 0&&(this.depthFunc=e.depthFunc),e.depthTest!==void 0&&(this.depthTest=e.depthTest),e.depthWrite!==void 0&&(this.depthWrite=e.depthWrite),e.colorWrite!==void 0&&(this.colorWrite=e.colorWrite),e.clippingPlanes!==void 0&&(this.clippingPlanes=e.clippingPlanes.map(n=>new kn().fromJSON(n))),e.clipIntersection!==void 0&&(this.clipIntersection=e.clipIntersection),e.clipShadows!==void 0&&(this.clipShadows=e.clipShadows),e.depthPacking!==void 0&&(this.depthPacking=e.depthPacking),e.blendSrc!==void 0&&(this.blendSrc=e.blendSrc),e.blendDst!==void 0&&(this.blendDst=e.blendDst),e.blendEquation!==void 0&&(this.blendEquation=e.blendEquation),e.blendSrcAlpha!==void 0&&(this.blendSrcAlpha=e.blendSrcAlpha),e.blendDstAlpha!==void 0&&(this.blendDstAlpha=e.blendDstAlpha),e.blendEquationAlpha!==void 0&&(this.blendEquationAlpha=e.blendEquationAlpha),e.blendColor!==void 0&&this.blendColor!==void 0&&this.blendColor.setHex(e.blendColor),e.blendAlpha!==void 0&&(this.blendAlpha=e.blendAlpha),e.stencilWriteMask!==void 0&&(this.stencilWriteMask=e.stencilWriteMask),e.stencilFunc!==void 0&&(this.stencilFunc=e.stencilFunc),e.stencilRef!==void 0&&(this.stencilRef=e.stencilRef),e.stencilFuncMask!==void 0&&(this.stencilFuncMask=e.stencilFuncMask),e.stencilFail!==void 0&&(this.stencilFail=e.stencilFail),e.stencilZFail!==void 0&&(this.stencilZFail=e.stencilZFail),e.stencilZPass!==void 0&&(this.stencilZPass=e.stencilZPass),e.stencilWrite!==void 0&&(this.stencilWrite=e.stencilWrite),e.wireframe!==void 0&&(this.wireframe=e.wireframe),e.wireframeLinewidth!==void 0&&(this.wireframeLinewidth=e.wireframeLinewidth),e.wireframeLinecap!==void 0&&(this.wireframeLinecap=e.wireframeLinecap),e.wireframeLinejoin!==void 0&&(this.wireframeLinejoin=e.wireframeLinejoin),e.rotation!==void 0&&(this.rotation=e.rotation),e.linewidth!==void 0&&(this.linewidth=e.linewidth),e.linecap!==void 0&&(this.linecap=e.linecap),e.linejoin!==void 0&&(this.linejoin=e.linejoin),e.dashSize!==void 0&&(this.dashSize=e.dashSize),e.gapSize!==void 0&&(this.gapSize=e.gapSize),e.scale!==void 0&&(this.scale=e.scale),e.polygonOffset!==void 0&&(this.polygonOffset=e.polygonOffset),e.polygonOffsetFactor!==void 0&&(this.polygonOffsetFactor=e.polygonOffsetFactor),e.polygonOffsetUnits!==void 0&&(this.polygonOffsetUnits=e.polygonOffsetUnits),e.dithering!==void 0&&(this.dithering=e.dithering),e.alphaToCoverage!==void 0&&(this.alphaToCoverage=e.alphaToCoverage),e.premultipliedAlpha!==void 0&&(this.premultipliedAlpha=e.premultipliedAlpha),e.forceSinglePass!==void 0&&(this.forceSinglePass=e.forceSinglePass),e.allowOverride!==void 0&&(this.allowOverride=e.allowOverride),e.visible!==void 0&&(this.visible=e.visible),e.toneMapped!==void 0&&(this.toneMapped=e.toneMapped),e.userData!==void 0&&(this.userData=e.userData),e.vertexColors!==void 0&&(typeof e.vertexColors=="number"?this.vertexColors=e.vertexColors>0:this.vertexColors=e.vertexColors),e.size!==void 0&&(this.size=e.size),e.sizeAttenuation!==void 0&&(this.sizeAttenuation=e.sizeAttenuation),e.map!==void 0&&(this.map=t[e.map]||null),e.matcap!==void 0&&(this.matcap=t[e.matcap]||null),e.alphaMap!==void 0&&(this.alphaMap=t[e.alphaMap]||null),e.bumpMap!==void 0&&(this.bumpMap=t[e.bumpMap]||null),e.bumpScale!==void 0&&(this.bumpScale=e.bumpScale),e.normalMap!==void 0&&(this.normalMap=t[e.normalMap]||null),e.normalMapType!==void 0&&(this.normalMapType=e.normalMapType),e.normalScale!==void 0){let n=e.normalScale;Array.isArray(n)===!1&&(n=[n,n]),this.normalScale=new gt().fromArray(n)}return e.displacementMap!==void 0&&(this.displacementMap=t[e.displacementMap]||null),e.displacementScale!==void 0&&(this.displacementScale=e.displacementScale),e.displacementBias!==void 0&&(this.displacementBias=e.displacementBias),e.roughnessMap!==void 0&&(this.roughnessMap=t[e.roughnessMap]||null),e.metalnessMap!==void 0&&(this.metalnessMap=t[e.metalnessMap]||null),e.emissiveMap!==void 0&&(this.emissiveMap=t[e.emissiveMap]||null),e.emissiveIntensity!==void 0&&(this.emissiveIntensity=e.emissiveIntensity),e.specularMap!==void 0&&(this.specularMap=t[e.specularMap]||null),e.specularIntensityMap!==void 0&&(this.specularIntensityMap=t[e.specularIntensityMap]||null),e.specularColorMap!==void 0&&(this.specularColorMap=t[e.specularColorMap]||null),e.envMap!==void 0&&(this.envMap=t[e.envMap]||null),e.envMapRotation!==void 0&&this.envMapRotation.fromArray(e.envMapRotation),e.envMapIntensity!==void 0&&(this.envMapIntensity=e.envMapIntensity),e.reflectivity!==void 0&&(this.reflectivity=e.reflectivity),e.refractionRatio!==void 0&&(this.refractionRatio=e.refractionRatio),e.lightMap!==void 0&&(this.lightMap=t[e.lightMap]||null),e.lightMapIntensity!==void 0&&(this.lightMapIntensity=e.lightMapIntensity),e.aoMap!==void 0&&(this.aoMap=t[e.aoMap]||null),e.aoMapIntensity!==void 0&&(this.aoMapIntensity=e.aoMapIntensity),e.gradientMap!==void 0&&(this.gradientMap=t[e.gradientMap]||null),e.clearcoatMap!==void 0&&(this.clearcoatMap=t[e.clearcoatMap]||null),e.clearcoatRoughnessMap!==void 0&&(this.clearcoatRoughnessMap=t[e.clearcoatRoughnessMap]||null),e.clearcoatNormalMap!==void 0&&(this.clearcoatNormalMap=t[e.clearcoatNormalMap]||null),e.clearcoatNormalScale!==void 0&&(this.clearcoatNormalScale=new gt().fromArray(e.clearcoatNormalScale)),e.diffuseRoughnessMap!==void 0&&(this.diffuseRoughnessMap=t[e.diffuseRoughnessMap]||null),e.iridescenceMap!==void 0&&(this.iridescenceMap=t[e.iridescenceMap]||null),e.iridescenceThicknessMap!==void 0&&(this.iridescenceThicknessMap=t[e.iridescenceThicknessMap]||null),e.transmissionMap!==void 0&&(this.transmissionMap=t[e.transmissionMap]||null),e.thicknessMap!==void 0&&(this.thicknessMap=t[e.thicknessMap]||null),e.anisotropyMap!==void 0&&(this.anisotropyMap=t[e.anisotropyMap]||null),e.sheenColorMap!==void 0&&(this.sheenColorMap=t[e.sheenColorMap]||null),e.sheenRoughnessMap!==void 0&&(this.sheenRoughnessMap=t[e.sheenRoughnessMap]||null),this}clone(){return new this.constructor().copy(this)}copy(e){this.name=e.name,this.blending=e.blending,this.side=e.side,this.vertexColors=e.vertexColors,this.opacity=e.opacity,this.transparent=e.transparent,this.blendSrc=e.blendSrc,this.blendDst=e.blendDst,this.blendEquation=e.blendEquation,this.blendSrcAlpha=e.blendSrcAlpha,this.blendDstAlpha=e.blendDstAlpha,this.blendEquationAlpha=e.blendEquationAlpha,this.blendColor.copy(e.blendColor),this.blendAlpha=e.blendAlpha,this.depthFunc=e.depthFunc,this.depthTest=e.depthTest,this.depthWrite=e.depthWrite,this.stencilWriteMask=e.stencilWriteMask,this.stencilFunc=e.stencilFunc,this.stencilRef=e.stencilRef,this.stencilFuncMask=e.stencilFuncMask,this.stencilFail=e.stencilFail,this.stencilZFail=e.stencilZFail,this.stencilZPass=e.stencilZPass,this.stencilWrite=e.stencilWrite;let t=e.clippingPlanes,n=null;if(t!==null){let s=t.length;n=new Array(s);for(let o=0;o!==s;++o)n[o]=t[o].clone()}return this.clippingPlanes=n,this.clipIntersection=e.clipIntersection,this.clipShadows=e.clipShadows,this.shadowSide=e.shadowSide,this.colorWrite=e.colorWrite,this.precision=e.precision,this.polygonOffset=e.polygonOffset,this.polygonOffsetFactor=e.polygonOffsetFactor,this.polygonOffsetUnits=e.polygonOffsetUnits,this.dithering=e.dithering,this.alphaTest=e.alphaTest,this.alphaHash=e.alphaHash,this.alphaToCoverage=e.alphaToCoverage,this.premultipliedAlpha=e.premultipliedAlpha,this.forceSinglePass=e.forceSinglePass,this.allowOverride=e.allowOverride,this.visible=e.visible,this.toneMapped=e.toneMapped,this.userData=JSON.parse(JSON.stringify(e.userData)),this}dispose(){this.dispatchEvent({type:"dispose"})}set needsUpdate(e){e===!0&&this.version++}};var fi=new Q,zl=new Q,ha=new Q,ua=new Q,Pr=class{constructor(e=new Q,t=new Q(0,0,-1)){this.origin=e,this.direction=t}set(e,t){return this.origin.copy(e),this.direction.copy(t),this}copy(e){return this.origin.copy(e.origin),this.direction.copy(e.direction),this}at(e,t){return t.copy(this.origin).addScaledVector(this.direction,e)}lookAt(e){return this.direction.copy(e).sub(this.origin).normalize(),this}recast(e){return this.origin.copy(this.at(e,fi)),this}closestPointToPoint(e,t){t.subVectors(e,this.origin);let n=t.dot(this.direction);return n<0?t.copy(this.origin):t.copy(this.origin).addScaledVector(this.direction,n)}distanceToPoint(e){return Math.sqrt(this.distanceSqToPoint(e))}distanceSqToPoint(e){let t=fi.subVectors(e,this.origin).dot(this.direction);return t<0?this.origin.distanceToSquared(e):(fi.copy(this.origin).addScaledVector(this.direction,t),fi.distanceToSquared(e))}distanceSqToSegment(e,t,n,s){zl.copy(e).add(t).multiplyScalar(.5),ha.copy(t).sub(e).normalize(),ua.copy(this.origin).sub(zl);let o=e.distanceTo(t)*.5,c=-this.direction.dot(ha),h=ua.dot(this.direction),f=-ua.dot(ha),d=ua.lengthSq(),m=Math.abs(1-c*c),v,g,S,w;if(m>0)if(v=c*f-h,g=c*h-f,w=o*m,v>=0)if(g>=-w)if(g<=w){let R=1/m;v*=R,g*=R,S=v*(v+c*g+2*h)+g*(c*v+g+2*f)+d}else g=o,v=Math.max(0,-(c*g+h)),S=-v*v+g*(g+2*f)+d;else g=-o,v=Math.max(0,-(c*g+h)),S=-v*v+g*(g+2*f)+d;else g<=-w?(v=Math.max(0,-(-c*o+h)),g=v>0?-o:Math.min(Math.max(-o,-f),o),S=-v*v+g*(g+2*f)+d):g<=w?(v=0,g=Math.min(Math.max(-o,-f),o),S=g*(g+2*f)+d):(v=Math.max(0,-(c*o+h)),g=v>0?o:Math.min(Math.max(-o,-f),o),S=-v*v+g*(g+2*f)+d);else g=c>0?-o:o,v=Math.max(0,-(c*g+h)),S=-v*v+g*(g+2*f)+d;return n&&n.copy(this.origin).addScaledVector(this.direction,v),s&&s.copy(zl).addScaledVector(ha,g),S}intersectSphere(e,t){if(e.radius<0)return null;fi.subVectors(e.center,this.origin);let n=fi.dot(this.direction),s=fi.dot(fi)-n*n,o=e.radius*e.radius;if(s>o)return null;let c=Math.sqrt(o-s),h=n-c,f=n+c;return f<0?null:h<0?this.at(f,t):this.at(h,t)}intersectsSphere(e){return e.radius<0?!1:this.distanceSqToPoint(e.center)<=e.radius*e.radius}distanceToPlane(e){let t=e.normal.dot(this.direction);if(t===0)return e.distanceToPoint(this.origin)===0?0:null;let n=-(this.origin.dot(e.normal)+e.constant)/t;return n>=0?n:null}intersectPlane(e,t){let n=this.distanceToPlane(e);return n===null?null:this.at(n,t)}intersectsPlane(e){let t=e.distanceToPoint(this.origin);return t===0||e.normal.dot(this.direction)*t<0}intersectBox(e,t){let n,s,o,c,h,f,d=1/this.direction.x,m=1/this.direction.y,v=1/this.direction.z,g=this.origin;return d>=0?(n=(e.min.x-g.x)*d,s=(e.max.x-g.x)*d):(n=(e.max.x-g.x)*d,s=(e.min.x-g.x)*d),m>=0?(o=(e.min.y-g.y)*m,c=(e.max.y-g.y)*m):(o=(e.max.y-g.y)*m,c=(e.min.y-g.y)*m),n>c||o>s||((o>n||isNaN(n))&&(n=o),(c<s||isNaN(s))&&(s=c),v>=0?(h=(e.min.z-g.z)*v,f=(e.max.z-g.z)*v):(h=(e.max.z-g.z)*v,f=(e.min.z-g.z)*v),n>f||h>s)||((h>n||n!==n)&&(n=h),(f<s||s!==s)&&(s=f),s<0)?null:this.at(n>=0?n:s,t)}intersectsBox(e){return this.intersectBox(e,fi)!==null}intersectTriangle(e,t,n,s,o){let c=this.origin,h=this.direction,f=h.x,d=h.y,m=h.z,v=e.x-c.x,g=e.y-c.y,S=e.z-c.z,w=t.x-c.x,R=t.y-c.y,x=t.z-c.z,y=n.x-c.x,I=n.y-c.y,O=n.z-c.z,P=Math.abs(f),U=Math.abs(d),N=Math.abs(m),b,L,q,k,Y,J,ee,z,ie,G,ne,Se;if(P>=U&&P>=N?(q=f,J=v,ie=w,Se=y,f>=0?(b=d,L=m,k=g,Y=S,ee=R,z=x,G=I,ne=O):(b=m,L=d,k=S,Y=g,ee=x,z=R,G=O,ne=I)):U>=N?(q=d,J=g,ie=R,Se=I,d>=0?(b=m,L=f,k=S,Y=v,ee=x,z=w,G=O,ne=y):(b=f,L=m,k=v,Y=S,ee=w,z=x,G=y,ne=O)):(q=m,J=S,ie=x,Se=O,m>=0?(b=f,L=d,k=v,Y=g,ee=w,z=R,G=y,ne=I):(b=d,L=f,k=g,Y=v,ee=R,z=w,G=I,ne=y)),q===0)return null;let re=b/q,H=L/q,me=1/q,We=k-re*J,nt=Y-H*J,ue=ee-re*ie,Fe=z-H*ie,Pe=G-re*Se,Ye=ne-H*Se,Ue=Pe*Fe-Ye*ue,rt=We*Ye-nt*Pe,Gt=ue*nt-Fe*We;if(s){if(Ue<0||rt<0||Gt<0)return null}else if((Ue<0||rt<0||Gt<0)&&(Ue>0||rt>0||Gt>0))return null;let Qe=Ue+rt+Gt;if(Qe===0)return null;let wt=me*(Ue*J+rt*ie+Gt*Se);return(Qe>0?wt<0:wt>0)?null:this.at(wt/Qe,o)}applyMatrix4(e){return this.origin.applyMatrix4(e),this.direction.transformDirection(e),this}equals(e){return e.origin.equals(this.origin)&&e.direction.equals(this.direction)}clone(){return new this.constructor().copy(this)}},za=class extends _i{constructor(e){super(),this.isMeshBasicMaterial=!0,this.type="MeshBasicMaterial",this.color=new ut(16777215),this.map=null,this.lightMap=null,this.lightMapIntensity=1,this.aoMap=null,this.aoMapIntensity=1,this.specularMap=null,this.alphaMap=null,this.envMap=null,this.envMapRotation=new gi,this.combine=rc,this.reflectivity=1,this.refractionRatio=.98,this.wireframe=!1,this.wireframeLinewidth=1,this.wireframeLinecap="round",this.wireframeLinejoin="round",this.fog=!0,this.setValues(e)}copy(e){return super.copy(e),this.color.copy(e.color),this.map=e.map,this.lightMap=e.lightMap,this.lightMapIntensity=e.lightMapIntensity,this.aoMap=e.aoMap,this.aoMapIntensity=e.aoMapIntensity,this.specularMap=e.specularMap,this.alphaMap=e.alphaMap,this.envMap=e.envMap,this.envMapRotation.copy(e.envMapRotation),this.combine=e.combine,this.reflectivity=e.reflectivity,this.refractionRatio=e.refractionRatio,this.wireframe=e.wireframe,this.wireframeLinewidth=e.wireframeLinewidth,this.wireframeLinecap=e.wireframeLinecap,this.wireframeLinejoin=e.wireframeLinejoin,this.fog=e.fog,this}},Yh=new It,Yi=new Pr,da=new Zi,jh=new Q,fa=new Q,pa=new Q,ma=new Q,Gl=new Q,ga=new Q,Jh=new Q,_a=new Q,Ln=class extends ln{constructor(e=new xn,t=new za){super(),this.isMesh=!0,this.type="Mesh",this.geometry=e,this.material=t,this.morphTargetDictionary=void 0,this.morphTargetInfluences=void 0,this.count=1,this.updateMorphTargets()}copy(e,t){return super.copy(e,t),e.morphTargetInfluences!==void 0?this.morphTargetInfluences=e.morphTargetInfluences.slice():this.morphTargetInfluences=void 0,e.morphTargetDictionary!==void 0?this.morphTargetDictionary=Object.assign({},e.morphTargetDictionary):this.morphTargetDictionary=void 0,this.material=Array.isArray(e.material)?e.material.slice():e.material,this.geometry=e.geometry,this}updateMorphTargets(){let t=this.geometry.morphAttributes,n=Object.keys(t);if(n.length>0){let s=t[n[0]];if(s!==void 0){this.morphTargetInfluences=[],this.morphTargetDictionary={};for(let o=0,c=s.length;o<c;o++){let h=s[o].name||String(o);this.morphTargetInfluences.push(0),this.morphTargetDictionary[h]=o}}}}getVertexPosition(e,t){let n=this.geometry,s=n.attributes.position,o=n.morphAttributes.position,c=n.morphTargetsRelative;t.fromBufferAttribute(s,e);let h=this.morphTargetInfluences;if(o&&h){ga.set(0,0,0);for(let f=0,d=o.length;f<d;f++){let m=h[f],v=o[f];m!==0&&(Gl.fromBufferAttribute(v,e),c?ga.addScaledVector(Gl,m):ga.addScaledVector(Gl.sub(t),m))}t.add(ga)}return t}intersectsFrustum(e){return e.intersectsObject(this)}raycast(e,t){let n=this.geometry,s=this.material,o=this.matrixWorld;s!==void 0&&(n.boundingSphere===null&&n.computeBoundingSphere(),da.copy(n.boundingSphere),da.applyMatrix4(o),Yi.copy(e.ray).recast(e.near),!(da.containsPoint(Yi.origin)===!1&&(Yi.intersectSphere(da,jh)===null||Yi.origin.distanceToSquared(jh)>(e.far-e.near)**2))&&(Yh.copy(o).invert(),Yi.copy(e.ray).applyMatrix4(Yh),!(n.boundingBox!==null&&Yi.intersectsBox(n.boundingBox)===!1)&&this._computeIntersections(e,t,Yi)))}_computeIntersections(e,t,n){let s,o=this.geometry,c=this.material,h=o.index,f=o.attributes.position,d=o.attributes.uv,m=o.attributes.uv1,v=o.attributes.normal,g=o.groups,S=o.drawRange;if(h!==null)if(Array.isArray(c))for(let w=0,R=g.length;w<R;w++){let x=g[w],y=c[x.materialIndex],I=Math.max(x.start,S.start),O=Math.min(h.count,Math.min(x.start+x.count,S.start+S.count));for(let P=I,U=O;P<U;P+=3){let N=h.getX(P),b=h.getX(P+1),L=h.getX(P+2);s=va(this,y,e,n,d,m,v,N,b,L),s&&(s.faceIndex=Math.floor(P/3),s.face.materialIndex=x.materialIndex,t.push(s))}}else{let w=Math.max(0,S.start),R=Math.min(h.count,S.start+S.count);for(let x=w,y=R;x<y;x+=3){let I=h.getX(x),O=h.getX(x+1),P=h.getX(x+2);s=va(this,c,e,n,d,m,v,I,O,P),s&&(s.faceIndex=Math.floor(x/3),t.push(s))}}else if(f!==void 0)if(Array.isArray(c))for(let w=0,R=g.length;w<R;w++){let x=g[w],y=c[x.materialIndex],I=Math.max(x.start,S.start),O=Math.min(f.count,Math.min(x.start+x.count,S.start+S.count));for(let P=I,U=O;P<U;P+=3){let N=P,b=P+1,L=P+2;s=va(this,y,e,n,d,m,v,N,b,L),s&&(s.faceIndex=Math.floor(P/3),s.face.materialIndex=x.materialIndex,t.push(s))}}else{let w=Math.max(0,S.start),R=Math.min(f.count,S.start+S.count);for(let x=w,y=R;x<y;x+=3){let I=x,O=x+1,P=x+2;s=va(this,c,e,n,d,m,v,I,O,P),s&&(s.faceIndex=Math.floor(x/3),t.push(s))}}}};function E0(i,e,t,n,s,o,c,h){let f;if(e.side===vn?f=n.intersectTriangle(c,o,s,!0,h):f=n.intersectTriangle(s,o,c,e.side===Ni,h),f===null)return null;_a.copy(h),_a.applyMatrix4(i.matrixWorld);let d=t.ray.origin.distanceTo(_a);return d<t.near||d>t.far?null:{distance:d,point:_a.clone(),object:i}}function va(i,e,t,n,s,o,c,h,f,d){i.getVertexPosition(h,fa),i.getVertexPosition(f,pa),i.getVertexPosition(d,ma);let m=E0(i,e,t,n,fa,pa,ma,Jh);if(m){let v=new Q;Ci.getBarycoord(Jh,fa,pa,ma,v),s&&(m.uv=Ci.getInterpolatedAttribute(s,h,f,d,v,new gt)),o&&(m.uv1=Ci.getInterpolatedAttribute(o,h,f,d,v,new gt)),c&&(m.normal=Ci.getInterpolatedAttribute(c,h,f,d,v,new Q),m.normal.dot(n.direction)>0&&m.normal.multiplyScalar(-1));let g={a:h,b:f,c:d,normal:new Q,materialIndex:0};Ci.getNormal(fa,pa,ma,g.normal),m.face=g,m.barycoord=v}return m}var Ga=class extends yn{constructor(e=null,t=1,n=1,s,o,c,h,f,d=sn,m=sn,v,g){super(null,c,h,f,d,m,s,o,v,g),this.isDataTexture=!0,this.image={data:e,width:t,height:n},this.generateMipmaps=!1,this.flipY=!1,this.unpackAlignment=1}};var ji=new Zi,T0=new gt(.5,.5),ya=new Q,Pi=class{constructor(e=new kn,t=new kn,n=new kn,s=new kn,o=new kn,c=new kn){this.planes=[e,t,n,s,o,c]}set(e,t,n,s,o,c){let h=this.planes;return h[0].copy(e),h[1].copy(t),h[2].copy(n),h[3].copy(s),h[4].copy(o),h[5].copy(c),this}copy(e){let t=this.planes;for(let n=0;n<6;n++)t[n].copy(e.planes[n]);return this}setFromProjectionMatrix(e,t=In,n=!1){let s=this.planes,o=e.elements,c=o[0],h=o[1],f=o[2],d=o[3],m=o[4],v=o[5],g=o[6],S=o[7],w=o[8],R=o[9],x=o[10],y=o[11],I=o[12],O=o[13],P=o[14],U=o[15];if(s[0].setComponents(d-c,S-m,y-w,U-I).normalize(),s[1].setComponents(d+c,S+m,y+w,U+I).normalize(),s[2].setComponents(d+h,S+v,y+R,U+O).normalize(),s[3].setComponents(d-h,S-v,y-R,U-O).normalize(),n)s[4].setComponents(f,g,x,P).normalize(),s[5].setComponents(d-f,S-g,y-x,U-P).normalize();else if(s[4].setComponents(d-f,S-g,y-x,U-P).normalize(),t===In)s[5].setComponents(d+f,S+g,y+x,U+P).normalize();else if(t===wr)s[5].setComponents(f,g,x,P).normalize();else throw new Error("THREE.Frustum.setFromProjectionMatrix(): Invalid coordinate system: "+t);return this}intersectsObject(e){if(e.boundingSphere!==void 0)e.boundingSphere===null&&e.computeBoundingSphere(),ji.copy(e.boundingSphere).applyMatrix4(e.matrixWorld);else{let t=e.geometry;t.boundingSphere===null&&t.computeBoundingSphere(),ji.copy(t.boundingSphere).applyMatrix4(e.matrixWorld)}return this.intersectsSphere(ji)}intersectsSprite(e){ji.center.set(0,0,0);let t=T0.distanceTo(e.center);return ji.radius=.7071067811865476+t,ji.applyMatrix4(e.matrixWorld),this.intersectsSphere(ji)}intersectsSphere(e){let t=this.planes,n=e.center,s=-e.radius;for(let o=0;o<6;o++)if(t[o].distanceToPoint(n)<s)return!1;return!0}intersectsBox(e){let t=this.planes;for(let n=0;n<6;n++){let s=t[n];if(ya.x=s.normal.x>0?e.max.x:e.min.x,ya.y=s.normal.y>0?e.max.y:e.min.y,ya.z=s.normal.z>0?e.max.z:e.min.z,s.distanceToPoint(ya)<0)return!1}return!0}containsPoint(e){let t=this.planes;for(let n=0;n<6;n++)if(t[n].distanceToPoint(e)<0)return!1;return!0}clone(){return new this.constructor().copy(this)}},Zh=new It,Va=class i{constructor(){this.coordinateSystem=In,this._frustums=[],this._count=0}setFromArrayCamera(e){let t=e.cameras,n=this._frustums;for(let s=0;s<t.length;s++){let o=t[s];Zh.multiplyMatrices(o.projectionMatrix,o.matrixWorldInverse),n[s]===void 0&&(n[s]=new Pi),n[s].setFromProjectionMatrix(Zh,o.coordinateSystem,o.reversedDepth)}return this._count=t.length,this}getFrustum(e){return this._frustums[e]}intersectsObject(e){let t=this._frustums;for(let n=0;n<this._count;n++)if(t[n].intersectsObject(e))return!0;return!1}intersectsSprite(e){let t=this._frustums;for(let n=0;n<this._count;n++)if(t[n].intersectsSprite(e))return!0;return!1}intersectsSphere(e){let t=this._frustums;for(let n=0;n<this._count;n++)if(t[n].intersectsSphere(e))return!0;return!1}intersectsBox(e){let t=this._frustums;for(let n=0;n<this._count;n++)if(t[n].intersectsBox(e))return!0;return!1}containsPoint(e){let t=this._frustums;for(let n=0;n<this._count;n++)if(t[n].containsPoint(e))return!0;return!1}copy(e){this.coordinateSystem=e.coordinateSystem;let t=this._frustums,n=e._frustums;for(let s=0;s<e._count;s++)t[s]===void 0&&(t[s]=new Pi),t[s].copy(n[s]);return this._count=e._count,this}clone(){return new i().copy(this)}};var Ir=class extends _i{constructor(e){super(),this.isLineBasicMaterial=!0,this.type="LineBasicMaterial",this.color=new ut(16777215),this.map=null,this.linewidth=1,this.linecap="round",this.linejoin="round",this.fog=!0,this.setValues(e)}copy(e){return super.copy(e),this.color.copy(e.color),this.map=e.map,this.linewidth=e.linewidth,this.linecap=e.linecap,this.linejoin=e.linejoin,this.fog=e.fog,this}},Ha=new Q,Wa=new Q,Kh=new It,Kr=new Pr,xa=new Zi,Vl=new Q,Qh=new Q,hs=class extends ln{constructor(e=new xn,t=new Ir){super(),this.isLine=!0,this.type="Line",this.geometry=e,this.material=t,this.morphTargetDictionary=void 0,this.morphTargetInfluences=void 0,this.updateMorphTargets()}copy(e,t){return super.copy(e,t),e.morphTargetInfluences!==void 0?this.morphTargetInfluences=e.morphTargetInfluences.slice():this.morphTargetInfluences=void 0,e.morphTargetDictionary!==void 0?this.morphTargetDictionary=Object.assign({},e.morphTargetDictionary):this.morphTargetDictionary=void 0,this.material=Array.isArray(e.material)?e.material.slice():e.material,this.geometry=e.geometry,this}computeLineDistances(){let e=this.geometry;if(e.index===null){let t=e.attributes.position,n=[0];for(let s=1,o=t.count;s<o;s++)Ha.fromBufferAttribute(t,s-1),Wa.fromBufferAttribute(t,s),n[s]=n[s-1],n[s]+=Ha.distanceTo(Wa);e.setAttribute("lineDistance",new Wt(n,1))}else et("Line.computeLineDistances(): Computation only possible with non-indexed BufferGeometry.");return this}intersectsFrustum(e){return e.intersectsObject(this)}raycast(e,t){let n=this.geometry,s=this.matrixWorld,o=e.params.Line.threshold,c=n.drawRange;if(n.boundingSphere===null&&n.computeBoundingSphere(),xa.copy(n.boundingSphere),xa.applyMatrix4(s),xa.radius+=o,e.ray.intersectsSphere(xa)===!1)return;Kh.copy(s).invert(),Kr.copy(e.ray).applyMatrix4(Kh);let h=o/((this.scale.x+this.scale.y+this.scale.z)/3),f=h*h,d=this.isLineSegments?2:1,m=n.index,g=n.attributes.position;if(m!==null){let S=Math.max(0,c.start),w=Math.min(m.count,c.start+c.count);for(let R=S,x=w-1;R<x;R+=d){let y=m.getX(R),I=m.getX(R+1),O=Sa(this,e,Kr,f,y,I,R);O&&t.push(O)}if(this.isLineLoop){let R=m.getX(w-1),x=m.getX(S),y=Sa(this,e,Kr,f,R,x,w-1);y&&t.push(y)}}else{let S=Math.max(0,c.start),w=Math.min(g.count,c.start+c.count);for(let R=S,x=w-1;R<x;R+=d){let y=Sa(this,e,Kr,f,R,R+1,R);y&&t.push(y)}if(this.isLineLoop){let R=Sa(this,e,Kr,f,w-1,S,w-1);R&&t.push(R)}}}updateMorphTargets(){let t=this.geometry.morphAttributes,n=Object.keys(t);if(n.length>0){let s=t[n[0]];if(s!==void 0){this.morphTargetInfluences=[],this.morphTargetDictionary={};for(let o=0,c=s.length;o<c;o++){let h=s[o].name||String(o);this.morphTargetInfluences.push(0),this.morphTargetDictionary[h]=o}}}}};function Sa(i,e,t,n,s,o,c){let h=i.geometry.attributes.position;if(Ha.fromBufferAttribute(h,s),Wa.fromBufferAttribute(h,o),t.distanceSqToSegment(Ha,Wa,Vl,Qh)>n)return;Vl.applyMatrix4(i.matrixWorld);let d=e.ray.origin.distanceTo(Vl);if(!(d<e.near||d>e.far))return{distance:d,point:Qh.clone().applyMatrix4(i.matrixWorld),index:c,face:null,faceIndex:null,barycoord:null,object:i}}var us=class extends yn{constructor(e=[],t=tr,n,s,o,c,h,f,d,m){super(e,t,n,s,o,c,h,f,d,m),this.isCubeTexture=!0,this.flipY=!1}get images(){return this.image}set images(e){this.image=e}};var vi=class extends yn{constructor(e,t,n=zn,s,o,c,h=sn,f=sn,d,m=mi,v=1){if(m!==mi&&m!==xi)throw new Error("THREE.DepthTexture: format must be either THREE.DepthFormat or THREE.DepthStencilFormat");let g={width:e,height:t,depth:v};super(g,s,o,c,h,f,m,n,d),this.isDepthTexture=!0,this.flipY=!1,this.generateMipmaps=!1,this.compareFunction=null}copy(e){return super.copy(e),this.source=new Ar(Object.assign({},e.image)),this.compareFunction=e.compareFunction,this}toJSON(e){let t=super.toJSON(e);return t.compareFunction=this.compareFunction,t}},ds=class extends vi{constructor(e,t=zn,n=tr,s,o,c=sn,h=sn,f,d=mi){let m={width:e,height:e,depth:1},v=[m,m,m,m,m,m];super(e,e,t,n,s,o,c,h,f,d),this.image=v,this.isCubeDepthTexture=!0,this.isCubeTexture=!0}get images(){return this.image}set images(e){this.image=e}},fs=class extends yn{constructor(e=null){super(),this.sourceTexture=e,this.isExternalTexture=!0}copy(e){return super.copy(e),this.sourceTexture=e.sourceTexture,this}},Ii=class i extends xn{constructor(e=1,t=1,n=1,s=1,o=1,c=1){super(),this.type="BoxGeometry",this.parameters={width:e,height:t,depth:n,widthSegments:s,heightSegments:o,depthSegments:c};let h=this;s=Math.floor(s),o=Math.floor(o),c=Math.floor(c);let f=[],d=[],m=[],v=[],g=0,S=0;w("z","y","x",-1,-1,n,t,e,c,o,0),w("z","y","x",1,-1,n,t,-e,c,o,1),w("x","z","y",1,1,e,n,t,s,c,2),w("x","z","y",1,-1,e,n,-t,s,c,3),w("x","y","z",1,-1,e,t,n,s,o,4),w("x","y","z",-1,-1,e,t,-n,s,o,5),this.setIndex(f),this.setAttribute("position",new Wt(d,3)),this.setAttribute("normal",new Wt(m,3)),this.setAttribute("uv",new Wt(v,2));function w(R,x,y,I,O,P,U,N,b,L,q){let k=P/b,Y=U/L,J=P/2,ee=U/2,z=N/2,ie=b+1,G=L+1,ne=0,Se=0,re=new Q;for(let H=0;H<G;H++){let me=H*Y-ee;for(let We=0;We<ie;We++){let nt=We*k-J;re[R]=nt*I,re[x]=me*O,re[y]=z,d.push(re.x,re.y,re.z),re[R]=0,re[x]=0,re[y]=N>0?1:-1,m.push(re.x,re.y,re.z),v.push(We/b),v.push(1-H/L),ne+=1}}for(let H=0;H<L;H++)for(let me=0;me<b;me++){let We=g+me+ie*H,nt=g+me+ie*(H+1),ue=g+(me+1)+ie*(H+1),Fe=g+(me+1)+ie*H;f.push(We,nt,Fe),f.push(nt,ue,Fe),Se+=6}h.addGroup(S,Se,q),S+=Se,g+=ne}}copy(e){return super.copy(e),this.parameters=Object.assign({},e.parameters),this}static fromJSON(e){return new i(e.width,e.height,e.depth,e.widthSegments,e.heightSegments,e.depthSegments)}},ps=class i extends xn{constructor(e=1,t=1,n=4,s=8,o=1){super(),this.type="CapsuleGeometry",this.parameters={radius:e,height:t,capSegments:n,radialSegments:s,heightSegments:o},t=Math.max(0,t),n=Math.max(1,Math.floor(n)),s=Math.max(3,Math.floor(s)),o=Math.max(1,Math.floor(o));let c=[],h=[],f=[],d=[],m=t/2,v=Math.PI/2*e,g=t,S=2*v+g,w=n*2+o,R=s+1,x=new Q,y=new Q;for(let I=0;I<=w;I++){let O=0,P=0,U=0,N=0;if(I<=n){let q=I/n,k=q*Math.PI/2;P=-m-e*Math.cos(k),U=e*Math.sin(k),N=-e*Math.cos(k),O=q*v}else if(I<=n+o){let q=(I-n)/o;P=-m+q*t,U=e,N=0,O=v+q*g}else{let q=(I-n-o)/n,k=q*Math.PI/2;P=m+e*Math.sin(k),U=e*Math.cos(k),N=e*Math.sin(k),O=v+g+q*v}let b=Math.max(0,Math.min(1,O/S)),L=0;I===0?L=.5/s:I===w&&(L=-.5/s);for(let q=0;q<=s;q++){let k=q/s,Y=k*Math.PI*2,J=Math.sin(Y),ee=Math.cos(Y);y.x=-U*ee,y.y=P,y.z=U*J,h.push(y.x,y.y,y.z),x.set(-U*ee,N,U*J),x.normalize(),f.push(x.x,x.y,x.z),d.push(k+L,b)}if(I>0){let q=(I-1)*R;for(let k=0;k<s;k++){let Y=q+k,J=q+k+1,ee=I*R+k,z=I*R+k+1;c.push(Y,J,ee),c.push(J,z,ee)}}}this.setIndex(c),this.setAttribute("position",new Wt(h,3)),this.setAttribute("normal",new Wt(f,3)),this.setAttribute("uv",new Wt(d,2))}copy(e){return super.copy(e),this.parameters=Object.assign({},e.parameters),this}static fromJSON(e){return new i(e.radius,e.height,e.capSegments,e.radialSegments,e.heightSegments)}};var ms=class i extends xn{constructor(e=1,t=1,n=1,s=32,o=1,c=!1,h=0,f=Math.PI*2){super(),this.type="CylinderGeometry",this.parameters={radiusTop:e,radiusBottom:t,height:n,radialSegments:s,heightSegments:o,openEnded:c,thetaStart:h,thetaLength:f};let d=this;s=Math.floor(s),o=Math.floor(o);let m=[],v=[],g=[],S=[],w=0,R=[],x=n/2,y=0;I(),c===!1&&(e>0&&O(!0),t>0&&O(!1)),this.setIndex(m),this.setAttribute("position",new Wt(v,3)),this.setAttribute("normal",new Wt(g,3)),this.setAttribute("uv",new Wt(S,2));function I(){let P=new Q,U=new Q,N=0,b=(t-e)/n;for(let L=0;L<=o;L++){let q=[],k=L/o,Y=k*(t-e)+e;for(let J=0;J<=s;J++){let ee=J/s,z=ee*f+h,ie=Math.sin(z),G=Math.cos(z);U.x=Y*ie,U.y=-k*n+x,U.z=Y*G,v.push(U.x,U.y,U.z),P.set(ie,b,G).normalize(),g.push(P.x,P.y,P.z),S.push(ee,1-k),q.push(w++)}R.push(q)}for(let L=0;L<s;L++)for(let q=0;q<o;q++){let k=R[q][L],Y=R[q+1][L],J=R[q+1][L+1],ee=R[q][L+1];(e>0||q!==0)&&(m.push(k,Y,ee),N+=3),(t>0||q!==o-1)&&(m.push(Y,J,ee),N+=3)}d.addGroup(y,N,0),y+=N}function O(P){let U=w,N=new gt,b=new Q,L=0,q=P===!0?e:t,k=P===!0?1:-1;for(let J=1;J<=s;J++)v.push(0,x*k,0),g.push(0,k,0),S.push(.5,.5),w++;let Y=w;for(let J=0;J<=s;J++){let z=J/s*f+h,ie=Math.cos(z),G=Math.sin(z);b.x=q*G,b.y=x*k,b.z=q*ie,v.push(b.x,b.y,b.z),g.push(0,k,0),N.x=ie*.5+.5,N.y=G*.5*k+.5,S.push(N.x,N.y),w++}for(let J=0;J<s;J++){let ee=U+J,z=Y+J;P===!0?m.push(z,z+1,ee):m.push(z+1,z,ee),L+=3}d.addGroup(y,L,P===!0?1:2),y+=L}}copy(e){return super.copy(e),this.parameters=Object.assign({},e.parameters),this}static fromJSON(e){return new i(e.radiusTop,e.radiusBottom,e.height,e.radialSegments,e.heightSegments,e.openEnded,e.thetaStart,e.thetaLength)}};var gs=class i extends xn{constructor(e=1,t=1,n=1,s=1){super(),this.type="PlaneGeometry",this.parameters={width:e,height:t,widthSegments:n,heightSegments:s};let o=e/2,c=t/2,h=Math.floor(n),f=Math.floor(s),d=h+1,m=f+1,v=e/h,g=t/f,S=[],w=[],R=[],x=[];for(let y=0;y<m;y++){let I=y*g-c;for(let O=0;O<d;O++){let P=O*v-o;w.push(P,-I,0),R.push(0,0,1),x.push(O/h),x.push(1-y/f)}}for(let y=0;y<f;y++)for(let I=0;I<h;I++){let O=I+d*y,P=I+d*(y+1),U=I+1+d*(y+1),N=I+1+d*y;S.push(O,P,N),S.push(P,U,N)}this.setIndex(S),this.setAttribute("position",new Wt(w,3)),this.setAttribute("normal",new Wt(R,3)),this.setAttribute("uv",new Wt(x,2))}copy(e){return super.copy(e),this.parameters=Object.assign({},e.parameters),this}static fromJSON(e){return new i(e.width,e.height,e.widthSegments,e.heightSegments)}};var Lr=class i extends xn{constructor(e=1,t=32,n=16,s=0,o=Math.PI*2,c=0,h=Math.PI){super(),this.type="SphereGeometry",this.parameters={radius:e,widthSegments:t,heightSegments:n,phiStart:s,phiLength:o,thetaStart:c,thetaLength:h},t=Math.max(3,Math.floor(t)),n=Math.max(2,Math.floor(n));let f=Math.min(c+h,Math.PI),d=0,m=[],v=new Q,g=new Q,S=[],w=[],R=[],x=[];for(let y=0;y<=n;y++){let I=[],O=y/n,P=c+O*h,U=e*Math.cos(P),N=Math.sqrt(e*e-U*U),b=0;y===0&&c===0?b=.5/t:y===n&&f===Math.PI&&(b=-.5/t);for(let L=0;L<=t;L++){let q=L/t,k=s+q*o;v.x=-N*Math.cos(k),v.y=U,v.z=N*Math.sin(k),w.push(v.x,v.y,v.z),g.copy(v).normalize(),R.push(g.x,g.y,g.z),x.push(q+b,1-O),I.push(d++)}m.push(I)}for(let y=0;y<n;y++)for(let I=0;I<t;I++){let O=m[y][I+1],P=m[y][I],U=m[y+1][I],N=m[y+1][I+1];(y!==0||c>0)&&S.push(O,P,N),(y!==n-1||f<Math.PI)&&S.push(P,U,N)}this.setIndex(S),this.setAttribute("position",new Wt(w,3)),this.setAttribute("normal",new Wt(R,3)),this.setAttribute("uv",new Wt(x,2))}copy(e){return super.copy(e),this.parameters=Object.assign({},e.parameters),this}static fromJSON(e){return new i(e.radius,e.widthSegments,e.heightSegments,e.phiStart,e.phiLength,e.thetaStart,e.thetaLength)}};function ir(i){let e={};for(let t in i){e[t]={};for(let n in i[t]){let s=i[t][n];if(eu(s))s.isRenderTargetTexture?(et("UniformsUtils: Textures of render targets cannot be cloned via cloneUniforms() or mergeUniforms()."),e[t][n]=null):e[t][n]=s.clone();else if(Array.isArray(s))if(eu(s[0])){let o=[];for(let c=0,h=s.length;c<h;c++)o[c]=s[c].clone();e[t][n]=o}else e[t][n]=s.slice();else e[t][n]=s}}return e}function dn(i){let e={};for(let t=0;t<i.length;t++){let n=ir(i[t]);for(let s in n)e[s]=n[s]}return e}function eu(i){return i&&(i.isColor||i.isMatrix3||i.isMatrix4||i.isVector2||i.isVector3||i.isVector4||i.isTexture||i.isQuaternion)}function A0(i){let e=[];for(let t=0;t<i.length;t++)e.push(i[t].clone());return e}function Cc(i){let e=i.getRenderTarget();return e===null?i.outputColorSpace:e.isXRRenderTarget===!0?e.texture.colorSpace:yt.workingColorSpace}var ju={clone:ir,merge:dn},C0=`void main() {
+	gl_Position = projectionMatrix * modelViewMatrix * vec4( position, 1.0 );
+}`,R0=`void main() {
+	gl_FragColor = vec4( 1.0, 0.0, 0.0, 1.0 );
+}`,ni=class extends _i{constructor(e){super(),this.isShaderMaterial=!0,this.type="ShaderMaterial",this.defines={},this.uniforms={},this.uniformsGroups=[],this.vertexShader=C0,this.fragmentShader=R0,this.linewidth=1,this.wireframe=!1,this.wireframeLinewidth=1,this.fog=!1,this.lights=!1,this.clipping=!1,this.forceSinglePass=!0,this.extensions={clipCullDistance:!1,multiDraw:!1},this.defaultAttributeValues={color:[1,1,1],uv:[0,0],uv1:[0,0]},this.index0AttributeName=void 0,this.uniformsNeedUpdate=!1,this.glslVersion=null,e!==void 0&&this.setValues(e)}copy(e){return super.copy(e),this.fragmentShader=e.fragmentShader,this.vertexShader=e.vertexShader,this.uniforms=ir(e.uniforms),this.uniformsGroups=A0(e.uniformsGroups),this.defines=Object.assign({},e.defines),this.wireframe=e.wireframe,this.wireframeLinewidth=e.wireframeLinewidth,this.fog=e.fog,this.lights=e.lights,this.clipping=e.clipping,this.extensions=Object.assign({},e.extensions),this.glslVersion=e.glslVersion,this.defaultAttributeValues=Object.assign({},e.defaultAttributeValues),this.index0AttributeName=e.index0AttributeName,this.uniformsNeedUpdate=e.uniformsNeedUpdate,this}toJSON(e){let t=super.toJSON(e);t.glslVersion=this.glslVersion,t.uniforms={};for(let s in this.uniforms){let c=this.uniforms[s].value;c&&c.isTexture?t.uniforms[s]={type:"t",value:c.toJSON(e).uuid}:c&&c.isColor?t.uniforms[s]={type:"c",value:c.getHex()}:c&&c.isVector2?t.uniforms[s]={type:"v2",value:c.toArray()}:c&&c.isVector3?t.uniforms[s]={type:"v3",value:c.toArray()}:c&&c.isVector4?t.uniforms[s]={type:"v4",value:c.toArray()}:c&&c.isMatrix3?t.uniforms[s]={type:"m3",value:c.toArray()}:c&&c.isMatrix4?t.uniforms[s]={type:"m4",value:c.toArray()}:t.uniforms[s]={value:c}}Object.keys(this.defines).length>0&&(t.defines=this.defines),t.vertexShader=this.vertexShader,t.fragmentShader=this.fragmentShader,t.lights=this.lights,t.clipping=this.clipping;let n={};for(let s in this.extensions)this.extensions[s]===!0&&(n[s]=!0);return Object.keys(n).length>0&&(t.extensions=n),t}fromJSON(e,t){if(super.fromJSON(e,t),e.uniforms!==void 0)for(let n in e.uniforms){let s=e.uniforms[n];switch(this.uniforms[n]={},s.type){case"t":this.uniforms[n].value=t[s.value]||null;break;case"c":this.uniforms[n].value=new ut().setHex(s.value);break;case"v2":this.uniforms[n].value=new gt().fromArray(s.value);break;case"v3":this.uniforms[n].value=new Q().fromArray(s.value);break;case"v4":this.uniforms[n].value=new zt().fromArray(s.value);break;case"m3":this.uniforms[n].value=new at().fromArray(s.value);break;case"m4":this.uniforms[n].value=new It().fromArray(s.value);break;default:this.uniforms[n].value=s.value}}if(e.defines!==void 0&&(this.defines=e.defines),e.vertexShader!==void 0&&(this.vertexShader=e.vertexShader),e.fragmentShader!==void 0&&(this.fragmentShader=e.fragmentShader),e.glslVersion!==void 0&&(this.glslVersion=e.glslVersion),e.extensions!==void 0)for(let n in e.extensions)this.extensions[n]=e.extensions[n];return e.lights!==void 0&&(this.lights=e.lights),e.clipping!==void 0&&(this.clipping=e.clipping),this}},Xa=class extends ni{constructor(e){super(e),this.isRawShaderMaterial=!0,this.type="RawShaderMaterial"}},_s=class extends _i{constructor(e){super(),this.isMeshStandardMaterial=!0,this.type="MeshStandardMaterial",this.defines={STANDARD:""},this.color=new ut(16777215),this.roughness=1,this.metalness=0,this.map=null,this.lightMap=null,this.lightMapIntensity=1,this.aoMap=null,this.aoMapIntensity=1,this.emissive=new ut(0),this.emissiveIntensity=1,this.emissiveMap=null,this.bumpMap=null,this.bumpScale=1,this.normalMap=null,this.normalMapType=$o,this.normalScale=new gt(1,1),this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.roughnessMap=null,this.metalnessMap=null,this.alphaMap=null,this.envMap=null,this.envMapRotation=new gi,this.envMapIntensity=1,this.wireframe=!1,this.wireframeLinewidth=1,this.wireframeLinecap="round",this.wireframeLinejoin="round",this.flatShading=!1,this.fog=!0,this.setValues(e)}copy(e){return super.copy(e),this.defines={STANDARD:""},this.color.copy(e.color),this.roughness=e.roughness,this.metalness=e.metalness,this.map=e.map,this.lightMap=e.lightMap,this.lightMapIntensity=e.lightMapIntensity,this.aoMap=e.aoMap,this.aoMapIntensity=e.aoMapIntensity,this.emissive.copy(e.emissive),this.emissiveMap=e.emissiveMap,this.emissiveIntensity=e.emissiveIntensity,this.bumpMap=e.bumpMap,this.bumpScale=e.bumpScale,this.normalMap=e.normalMap,this.normalMapType=e.normalMapType,this.normalScale.copy(e.normalScale),this.displacementMap=e.displacementMap,this.displacementScale=e.displacementScale,this.displacementBias=e.displacementBias,this.roughnessMap=e.roughnessMap,this.metalnessMap=e.metalnessMap,this.alphaMap=e.alphaMap,this.envMap=e.envMap,this.envMapRotation.copy(e.envMapRotation),this.envMapIntensity=e.envMapIntensity,this.wireframe=e.wireframe,this.wireframeLinewidth=e.wireframeLinewidth,this.wireframeLinecap=e.wireframeLinecap,this.wireframeLinejoin=e.wireframeLinejoin,this.flatShading=e.flatShading,this.fog=e.fog,this}};var $a=class extends _i{constructor(e){super(),this.isMeshDepthMaterial=!0,this.type="MeshDepthMaterial",this.depthPacking=Du,this.map=null,this.alphaMap=null,this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.wireframe=!1,this.wireframeLinewidth=1,this.setValues(e)}copy(e){return super.copy(e),this.depthPacking=e.depthPacking,this.map=e.map,this.alphaMap=e.alphaMap,this.displacementMap=e.displacementMap,this.displacementScale=e.displacementScale,this.displacementBias=e.displacementBias,this.wireframe=e.wireframe,this.wireframeLinewidth=e.wireframeLinewidth,this}},qa=class extends _i{constructor(e){super(),this.isMeshDistanceMaterial=!0,this.type="MeshDistanceMaterial",this.map=null,this.alphaMap=null,this.displacementMap=null,this.displacementScale=1,this.displacementBias=0,this.setValues(e)}copy(e){return super.copy(e),this.map=e.map,this.alphaMap=e.alphaMap,this.displacementMap=e.displacementMap,this.displacementScale=e.displacementScale,this.displacementBias=e.displacementBias,this}};function yr(i,e){return!i||i.constructor===e?i:typeof e.BYTES_PER_ELEMENT=="number"?new e(i):Array.prototype.slice.call(i)}function Ma(i){return i!==void 0&&i.inTangents!==void 0&&i.outTangents!==void 0}var Li=class{constructor(e,t,n,s){this.parameterPositions=e,this._cachedIndex=0,this.resultBuffer=s!==void 0?s:new t.constructor(n),this.sampleValues=t,this.valueSize=n,this.settings=null,this.DefaultSettings_={}}evaluate(e){let t=this.parameterPositions,n=this._cachedIndex,s=t[n],o=t[n-1];e:{t:{let c;n:{i:if(!(e<s)){for(let h=n+2;;){if(s===void 0){if(e<o)break i;return n=t.length,this._cachedIndex=n,this.copySampleValue_(n-1)}if(n===h)break;if(o=s,s=t[++n],e<s)break t}c=t.length;break n}if(!(e>=o)){let h=t[1];e<h&&(n=2,o=h);for(let f=n-2;;){if(o===void 0)return this._cachedIndex=0,this.copySampleValue_(0);if(n===f)break;if(s=o,o=t[--n-1],e>=o)break t}c=n,n=0;break n}break e}for(;n<c;){let h=n+c>>>1;e<t[h]?c=h:n=h+1}if(s=t[n],o=t[n-1],o===void 0)return this._cachedIndex=0,this.copySampleValue_(0);if(s===void 0)return n=t.length,this._cachedIndex=n,this.copySampleValue_(n-1)}this._cachedIndex=n,this.intervalChanged_(n,o,s)}return this.interpolate_(n,o,e,s)}getSettings_(){return this.settings||this.DefaultSettings_}copySampleValue_(e){let t=this.resultBuffer,n=this.sampleValues,s=this.valueSize,o=e*s;for(let c=0;c!==s;++c)t[c]=n[o+c];return t}interpolate_(){throw new Error("THREE.Interpolant: Call to abstract method.")}intervalChanged_(){}},Ya=class extends Li{constructor(e,t,n,s){super(e,t,n,s),this._weightPrev=-0,this._offsetPrev=-0,this._weightNext=-0,this._offsetNext=-0,this.DefaultSettings_={endingStart:Xl,endingEnd:Xl}}intervalChanged_(e,t,n){let s=this.parameterPositions,o=e-2,c=e+1,h=s[o],f=s[c];if(h===void 0)switch(this.getSettings_().endingStart){case $l:o=e,h=2*t-n;break;case ql:o=s.length-2,h=t+s[o]-s[o+1];break;default:o=e,h=n}if(f===void 0)switch(this.getSettings_().endingEnd){case $l:c=e,f=2*n-t;break;case ql:c=1,f=n+s[1]-s[0];break;default:c=e-1,f=t}let d=(n-t)*.5,m=this.valueSize;this._weightPrev=d/(t-h),this._weightNext=d/(f-n),this._offsetPrev=o*m,this._offsetNext=c*m}interpolate_(e,t,n,s){let o=this.resultBuffer,c=this.sampleValues,h=this.valueSize,f=e*h,d=f-h,m=this._offsetPrev,v=this._offsetNext,g=this._weightPrev,S=this._weightNext,w=(n-t)/(s-t),R=w*w,x=R*w,y=-g*x+2*g*R-g*w,I=(1+g)*x+(-1.5-2*g)*R+(-.5+g)*w+1,O=(-1-S)*x+(1.5+S)*R+.5*w,P=S*x-S*R;for(let U=0;U!==h;++U)o[U]=y*c[m+U]+I*c[d+U]+O*c[f+U]+P*c[v+U];return o}},ja=class extends Li{constructor(e,t,n,s){super(e,t,n,s)}interpolate_(e,t,n,s){let o=this.resultBuffer,c=this.sampleValues,h=this.valueSize,f=e*h,d=f-h,m=(n-t)/(s-t),v=1-m;for(let g=0;g!==h;++g)o[g]=c[d+g]*v+c[f+g]*m;return o}},Ja=class extends Li{constructor(e,t,n,s){super(e,t,n,s)}interpolate_(e){return this.copySampleValue_(e-1)}},Za=class extends Li{interpolate_(e,t,n,s){let o=this.resultBuffer,c=this.sampleValues,h=this.valueSize,f=e*h,d=f-h,m=this.inTangents,v=this.outTangents;if(!m||!v){let w=(n-t)/(s-t),R=1-w;for(let x=0;x!==h;++x)o[x]=c[d+x]*R+c[f+x]*w;return o}let g=h*2,S=e-1;for(let w=0;w!==h;++w){let R=c[d+w],x=c[f+w],y=S*g+w*2,I=v[y],O=v[y+1],P=e*g+w*2,U=m[P],N=m[P+1],b=I0(n,t,I,U,s);o[w]=Ju(b,R,O,N,x)}return o}};function Ju(i,e,t,n,s){let o=1-i;return o*o*o*e+3*o*o*i*t+3*o*i*i*n+i*i*i*s}function P0(i,e,t,n,s){let o=1-i;return 3*o*o*(t-e)+6*o*i*(n-t)+3*i*i*(s-n)}function I0(i,e,t,n,s){let o=(i-e)/(s-e);for(let c=0;c<8;c++){let h=Ju(o,e,t,n,s)-i;if(Math.abs(h)<1e-10)break;let f=P0(o,e,t,n,s);if(Math.abs(f)<1e-10)break;o=Math.max(0,Math.min(1,o-h/f))}return o}var Tn=class{constructor(e,t,n,s){if(e===void 0)throw new Error("THREE.KeyframeTrack: track name is undefined");if(t===void 0||t.length===0)throw new Error("THREE.KeyframeTrack: no keyframes in track named "+e);this.name=e,this.times=yr(t,this.TimeBufferType),this.values=yr(n,this.ValueBufferType),this.setInterpolation(s||this.DefaultInterpolation)}static toJSON(e){let t=e.constructor,n;if(t.toJSON!==this.toJSON)n=t.toJSON(e);else{n={name:e.name,times:yr(e.times,Array),values:yr(e.values,Array)};let s=e.getInterpolation();s!==e.DefaultInterpolation&&(n.interpolation=s),Ma(e.settings)&&(n.settings={inTangents:yr(e.settings.inTangents,Array),outTangents:yr(e.settings.outTangents,Array)})}return n.type=e.ValueTypeName,n}InterpolantFactoryMethodDiscrete(e){return new Ja(this.times,this.values,this.getValueSize(),e)}InterpolantFactoryMethodLinear(e){return new ja(this.times,this.values,this.getValueSize(),e)}InterpolantFactoryMethodSmooth(e){return new Ya(this.times,this.values,this.getValueSize(),e)}InterpolantFactoryMethodBezier(e){let t=new Za(this.times,this.values,this.getValueSize(),e);return this.settings&&(t.inTangents=this.settings.inTangents,t.outTangents=this.settings.outTangents),t}setInterpolation(e){let t;switch(e){case ns:t=this.InterpolantFactoryMethodDiscrete;break;case Ua:t=this.InterpolantFactoryMethodLinear;break;case Ea:t=this.InterpolantFactoryMethodSmooth;break;case Wl:t=this.InterpolantFactoryMethodBezier;break}if(t===void 0){let n="unsupported interpolation for "+this.ValueTypeName+" keyframe track named "+this.name;if(this.createInterpolant===void 0)if(e!==this.DefaultInterpolation)this.setInterpolation(this.DefaultInterpolation);else throw new Error(n);return et("KeyframeTrack:",n),this}return this.createInterpolant=t,this}getInterpolation(){switch(this.createInterpolant){case this.InterpolantFactoryMethodDiscrete:return ns;case this.InterpolantFactoryMethodLinear:return Ua;case this.InterpolantFactoryMethodSmooth:return Ea;case this.InterpolantFactoryMethodBezier:return Wl}}getValueSize(){return this.values.length/this.times.length}shift(e){if(e!==0){let t=this.times;for(let n=0,s=t.length;n!==s;++n)t[n]+=e;Ma(this.settings)&&(tu(this.settings.inTangents,e),tu(this.settings.outTangents,e))}return this}scale(e){if(e!==1){let t=this.times;for(let n=0,s=t.length;n!==s;++n)t[n]*=e;Ma(this.settings)&&(nu(this.settings.inTangents,e),nu(this.settings.outTangents,e))}return this}trim(e,t){let n=this.times,s=n.length,o=0,c=s-1;for(;o!==s&&n[o]<e;)++o;for(;c!==-1&&n[c]>t;)--c;if(++c,o!==0||c!==s){o>=c&&(c=Math.max(c,1),o=c-1);let h=this.getValueSize();this.times=n.slice(o,c),this.values=this.values.slice(o*h,c*h)}return this}validate(){let e=!0,t=this.getValueSize();t-Math.floor(t)!==0&&(tt("KeyframeTrack: Invalid value size in track.",this),e=!1);let n=this.times,s=this.values,o=n.length;o===0&&(tt("KeyframeTrack: Track is empty.",this),e=!1);let c=null;for(let h=0;h!==o;h++){let f=n[h];if(typeof f=="number"&&isNaN(f)){tt("KeyframeTrack: Time is not a valid number.",this,h,f),e=!1;break}if(c!==null&&c>f){tt("KeyframeTrack: Out of order keys.",this,h,f,c),e=!1;break}c=f}if(s!==void 0&&q_(s))for(let h=0,f=s.length;h!==f;++h){let d=s[h];if(isNaN(d)){tt("KeyframeTrack: Value is not a valid number.",this,h,d),e=!1;break}}return e}optimize(){let e=this.times.slice(),t=this.values.slice(),n=this.getValueSize(),s=this.getInterpolation()===Ea,o=e.length-1,c=1;for(let h=1;h<o;++h){let f=!1,d=e[h],m=e[h+1];if(d!==m&&(h!==1||d!==e[0]))if(s)f=!0;else{let v=h*n,g=v-n,S=v+n;for(let w=0;w!==n;++w){let R=t[v+w];if(R!==t[g+w]||R!==t[S+w]){f=!0;break}}}if(f){if(h!==c){e[c]=e[h];let v=h*n,g=c*n;for(let S=0;S!==n;++S)t[g+S]=t[v+S]}++c}}if(o>0){e[c]=e[o];for(let h=o*n,f=c*n,d=0;d!==n;++d)t[f+d]=t[h+d];++c}return c!==e.length?(this.times=e.slice(0,c),this.values=t.slice(0,c*n)):(this.times=e,this.values=t),this}clone(){let e=this.times.slice(),t=this.values.slice(),n=this.constructor,s=new n(this.name,e,t);return s.createInterpolant=this.createInterpolant,Ma(this.settings)&&(s.settings={inTangents:this.settings.inTangents.slice(),outTangents:this.settings.outTangents.slice()}),s}};function tu(i,e){for(let t=0,n=i.length;t!==n;t+=2)i[t]+=e}function nu(i,e){for(let t=0,n=i.length;t!==n;t+=2)i[t]*=e}Tn.prototype.ValueTypeName="";Tn.prototype.TimeBufferType=Float32Array;Tn.prototype.ValueBufferType=Float32Array;Tn.prototype.DefaultInterpolation=Ua;var Di=class extends Tn{constructor(e,t,n){super(e,t,n)}};Di.prototype.ValueTypeName="bool";Di.prototype.ValueBufferType=Array;Di.prototype.DefaultInterpolation=ns;Di.prototype.InterpolantFactoryMethodLinear=void 0;Di.prototype.InterpolantFactoryMethodSmooth=void 0;var Ka=class extends Tn{constructor(e,t,n,s){super(e,t,n,s)}};Ka.prototype.ValueTypeName="color";var Qa=class extends Tn{constructor(e,t,n,s){super(e,t,n,s)}};Qa.prototype.ValueTypeName="number";var eo=class extends Li{constructor(e,t,n,s){super(e,t,n,s)}interpolate_(e,t,n,s){let o=this.resultBuffer,c=this.sampleValues,h=this.valueSize,f=(n-t)/(s-t),d=e*h;for(let m=d+h;d!==m;d+=4)ti.slerpFlat(o,0,c,d-h,c,d,f);return o}},vs=class extends Tn{constructor(e,t,n,s){super(e,t,n,s)}InterpolantFactoryMethodLinear(e){return new eo(this.times,this.values,this.getValueSize(),e)}};vs.prototype.ValueTypeName="quaternion";vs.prototype.InterpolantFactoryMethodSmooth=void 0;var Fi=class extends Tn{constructor(e,t,n){super(e,t,n)}};Fi.prototype.ValueTypeName="string";Fi.prototype.ValueBufferType=Array;Fi.prototype.DefaultInterpolation=ns;Fi.prototype.InterpolantFactoryMethodLinear=void 0;Fi.prototype.InterpolantFactoryMethodSmooth=void 0;var to=class extends Tn{constructor(e,t,n,s){super(e,t,n,s)}};to.prototype.ValueTypeName="vector";var no=class{constructor(e,t,n){let s=this,o=!1,c=0,h=0,f,d=[];this.onStart=void 0,this.onLoad=e,this.onProgress=t,this.onError=n,this._abortController=null,this.itemStart=function(m){h++,o===!1&&s.onStart!==void 0&&s.onStart(m,c,h),o=!0},this.itemEnd=function(m){c++,s.onProgress!==void 0&&s.onProgress(m,c,h),c===h&&(o=!1,s.onLoad!==void 0&&s.onLoad())},this.itemError=function(m){s.onError!==void 0&&s.onError(m)},this.resolveURL=function(m){return m=m.normalize("NFC"),f?f(m):m},this.setURLModifier=function(m){return f=m,this},this.addHandler=function(m,v){return d.push(m,v),this},this.removeHandler=function(m){let v=d.indexOf(m);return v!==-1&&d.splice(v,2),this},this.getHandler=function(m){for(let v=0,g=d.length;v<g;v+=2){let S=d[v],w=d[v+1];if(S.global&&(S.lastIndex=0),S.test(m))return w}return null},this.abort=function(){return this.abortController.abort(),this._abortController=null,this}}get abortController(){return this._abortController||(this._abortController=new AbortController),this._abortController}},Zu=new no,io=class{constructor(e){this.manager=e!==void 0?e:Zu,this.crossOrigin="anonymous",this.withCredentials=!1,this.path="",this.resourcePath="",this.requestHeader={},this.priority="auto",this.cache="default",typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}load(){}loadAsync(e,t){let n=this;return new Promise(function(s,o){n.load(e,s,t,o)})}parse(){}setCrossOrigin(e){return this.crossOrigin=e,this}setWithCredentials(e){return this.withCredentials=e,this}setPath(e){return this.path=e,this}setResourcePath(e){return this.resourcePath=e,this}setRequestHeader(e){return this.requestHeader=e,this}setPriority(e){return this.priority=e,this}setCache(e){return this.cache=e,this}abort(){return this}};io.DEFAULT_MATERIAL_NAME="__DEFAULT";var ys=class extends ln{static registerNode(e){this.prototype._lightNode=e}constructor(e,t=1){super(),this.isLight=!0,this.type="Light",this.color=new ut(e),this.intensity=t}copy(e,t){return super.copy(e,t),this.color.copy(e.color),this.intensity=e.intensity,this}toJSON(e){let t=super.toJSON(e);return t.object.color=this.color.getHex(),t.object.intensity=this.intensity,t}},xs=class extends ys{constructor(e,t,n){super(e,n),this.isHemisphereLight=!0,this.type="HemisphereLight",this.position.copy(ln.DEFAULT_UP),this.updateMatrix(),this.groundColor=new ut(t)}copy(e,t){return super.copy(e,t),this.groundColor.copy(e.groundColor),this}toJSON(e){let t=super.toJSON(e);return t.object.groundColor=this.groundColor.getHex(),t}},Hl=new It,iu=new Q,ru=new Q,ro=class{constructor(e){this.camera=e,this.intensity=1,this.bias=0,this.biasNode=null,this.normalBias=0,this.radius=1,this.blurSamples=8,this.mapSize=new gt(512,512),this.mapType=Sn,this.map=null,this.mapPass=null,this.matrix=new It,this.autoUpdate=!0,this.needsUpdate=!1,this._frustum=new Pi,this._frameExtents=new gt(1,1),this._viewportCount=1,this._viewports=[new zt(0,0,1,1)]}getViewportCount(){return this._viewportCount}getCamera(){return this.camera}getFrustum(){return this._frustum}updateMatrices(e){let t=this.camera;iu.setFromMatrixPosition(e.matrixWorld),t.position.copy(iu),ru.setFromMatrixPosition(e.target.matrixWorld),t.lookAt(ru),t.updateMatrixWorld(),this._updateMatrix(t,this.matrix,this._frustum)}_updateMatrix(e,t,n,s){Hl.multiplyMatrices(e.projectionMatrix,e.matrixWorldInverse),n.setFromProjectionMatrix(Hl,e.coordinateSystem,e.reversedDepth);let o=this._frameExtents,c=s?s.z/o.x:1,h=s?s.w/o.y:1,f=s?s.x/o.x:0,d=s?s.y/o.y:0;e.coordinateSystem===wr||e.reversedDepth?t.set(.5*c,0,0,.5*c+f,0,.5*h,0,.5*h+d,0,0,1,0,0,0,0,1):t.set(.5*c,0,0,.5*c+f,0,.5*h,0,.5*h+d,0,0,.5,.5,0,0,0,1),t.multiply(Hl)}getViewport(e){return this._viewports[e]}getFrameExtents(){return this._frameExtents}dispose(){this.map&&this.map.dispose(),this.mapPass&&this.mapPass.dispose()}copy(e){return this.camera=e.camera.clone(),this.intensity=e.intensity,this.bias=e.bias,this.radius=e.radius,this.autoUpdate=e.autoUpdate,this.needsUpdate=e.needsUpdate,this.normalBias=e.normalBias,this.blurSamples=e.blurSamples,this.mapSize.copy(e.mapSize),this.mapType=e.mapType,this.biasNode=e.biasNode,this}clone(){return new this.constructor().copy(this)}toJSON(){let e={};return e.intensity=this.intensity,e.bias=this.bias,e.normalBias=this.normalBias,e.radius=this.radius,e.blurSamples=this.blurSamples,e.mapSize=this.mapSize.toArray(),e.mapType=this.mapType,e.camera=this.camera.toJSON(!1).object,delete e.camera.matrix,e}},ba=new Q,wa=new ti,Zn=new Q,Ss=class extends ln{constructor(){super(),this.isCamera=!0,this.type="Camera",this.matrixWorldInverse=new It,this.projectionMatrix=new It,this.projectionMatrixInverse=new It,this.coordinateSystem=In,this._reversedDepth=!1}get reversedDepth(){return this._reversedDepth}copy(e,t){return super.copy(e,t),this.matrixWorldInverse.copy(e.matrixWorldInverse),this.projectionMatrix.copy(e.projectionMatrix),this.projectionMatrixInverse.copy(e.projectionMatrixInverse),this.coordinateSystem=e.coordinateSystem,this}getWorldDirection(e){return super.getWorldDirection(e).negate()}updateMatrixWorld(e){super.updateMatrixWorld(e),this.matrixWorld.decompose(ba,wa,Zn),Zn.x===1&&Zn.y===1&&Zn.z===1?this.matrixWorldInverse.copy(this.matrixWorld).invert():this.matrixWorldInverse.compose(ba,wa,Zn.set(1,1,1)).invert()}updateWorldMatrix(e,t,n=!1){super.updateWorldMatrix(e,t,n),this.matrixWorld.decompose(ba,wa,Zn),Zn.x===1&&Zn.y===1&&Zn.z===1?this.matrixWorldInverse.copy(this.matrixWorld).invert():this.matrixWorldInverse.compose(ba,wa,Zn.set(1,1,1)).invert()}clone(){return new this.constructor().copy(this)}},Ai=new Q,su=new gt,au=new gt,gn=class extends Ss{constructor(e=50,t=1,n=.1,s=2e3){super(),this.isPerspectiveCamera=!0,this.type="PerspectiveCamera",this.fov=e,this.zoom=1,this.near=n,this.far=s,this.focus=10,this.aspect=t,this.view=null,this.filmGauge=35,this.filmOffset=0,this.updateProjectionMatrix()}copy(e,t){return super.copy(e,t),this.fov=e.fov,this.zoom=e.zoom,this.near=e.near,this.far=e.far,this.focus=e.focus,this.aspect=e.aspect,this.view=e.view===null?null:Object.assign({},e.view),this.filmGauge=e.filmGauge,this.filmOffset=e.filmOffset,this}setFocalLength(e){let t=.5*this.getFilmHeight()/e;this.fov=Tr*2*Math.atan(t),this.updateProjectionMatrix()}getFocalLength(){let e=Math.tan(es*.5*this.fov);return .5*this.getFilmHeight()/e}getEffectiveFOV(){return Tr*2*Math.atan(Math.tan(es*.5*this.fov)/this.zoom)}getFilmWidth(){return this.filmGauge*Math.min(this.aspect,1)}getFilmHeight(){return this.filmGauge/Math.max(this.aspect,1)}getViewBounds(e,t,n){Ai.set(-1,-1,.5).applyMatrix4(this.projectionMatrixInverse),t.set(Ai.x,Ai.y).multiplyScalar(-e/Ai.z),Ai.set(1,1,.5).applyMatrix4(this.projectionMatrixInverse),n.set(Ai.x,Ai.y).multiplyScalar(-e/Ai.z)}getViewSize(e,t){return this.getViewBounds(e,su,au),t.subVectors(au,su)}setViewOffset(e,t,n,s,o,c){this.aspect=e/t,this.view===null&&(this.view={enabled:!0,fullWidth:1,fullHeight:1,offsetX:0,offsetY:0,width:1,height:1}),this.view.enabled=!0,this.view.fullWidth=e,this.view.fullHeight=t,this.view.offsetX=n,this.view.offsetY=s,this.view.width=o,this.view.height=c,this.updateProjectionMatrix()}clearViewOffset(){this.view!==null&&(this.view.enabled=!1),this.updateProjectionMatrix()}updateProjectionMatrix(){let e=this.near,t=e*Math.tan(es*.5*this.fov)/this.zoom,n=2*t,s=this.aspect*n,o=-.5*s,c=this.view;if(this.view!==null&&this.view.enabled){let f=c.fullWidth,d=c.fullHeight;o+=c.offsetX*s/f,t-=c.offsetY*n/d,s*=c.width/f,n*=c.height/d}let h=this.filmOffset;h!==0&&(o+=e*h/this.getFilmWidth()),this.projectionMatrix.makePerspective(o,o+s,t,t-n,e,this.far,this.coordinateSystem,this.reversedDepth),this.projectionMatrixInverse.copy(this.projectionMatrix).invert()}toJSON(e){let t=super.toJSON(e);return t.object.fov=this.fov,t.object.zoom=this.zoom,t.object.near=this.near,t.object.far=this.far,t.object.focus=this.focus,t.object.aspect=this.aspect,this.view!==null&&(t.object.view=Object.assign({},this.view)),t.object.filmGauge=this.filmGauge,t.object.filmOffset=this.filmOffset,t}};var Ms=class extends Ss{constructor(e=-1,t=1,n=1,s=-1,o=.1,c=2e3){super(),this.isOrthographicCamera=!0,this.type="OrthographicCamera",this.zoom=1,this.view=null,this.left=e,this.right=t,this.top=n,this.bottom=s,this.near=o,this.far=c,this.updateProjectionMatrix()}copy(e,t){return super.copy(e,t),this.left=e.left,this.right=e.right,this.top=e.top,this.bottom=e.bottom,this.near=e.near,this.far=e.far,this.zoom=e.zoom,this.view=e.view===null?null:Object.assign({},e.view),this}setViewOffset(e,t,n,s,o,c){this.view===null&&(this.view={enabled:!0,fullWidth:1,fullHeight:1,offsetX:0,offsetY:0,width:1,height:1}),this.view.enabled=!0,this.view.fullWidth=e,this.view.fullHeight=t,this.view.offsetX=n,this.view.offsetY=s,this.view.width=o,this.view.height=c,this.updateProjectionMatrix()}clearViewOffset(){this.view!==null&&(this.view.enabled=!1),this.updateProjectionMatrix()}updateProjectionMatrix(){let e=(this.right-this.left)/(2*this.zoom),t=(this.top-this.bottom)/(2*this.zoom),n=(this.right+this.left)/2,s=(this.top+this.bottom)/2,o=n-e,c=n+e,h=s+t,f=s-t;if(this.view!==null&&this.view.enabled){let d=(this.right-this.left)/this.view.fullWidth/this.zoom,m=(this.top-this.bottom)/this.view.fullHeight/this.zoom;o+=d*this.view.offsetX,c=o+d*this.view.width,h-=m*this.view.offsetY,f=h-m*this.view.height}this.projectionMatrix.makeOrthographic(o,c,h,f,this.near,this.far,this.coordinateSystem,this.reversedDepth),this.projectionMatrixInverse.copy(this.projectionMatrix).invert()}toJSON(e){let t=super.toJSON(e);return t.object.zoom=this.zoom,t.object.left=this.left,t.object.right=this.right,t.object.top=this.top,t.object.bottom=this.bottom,t.object.near=this.near,t.object.far=this.far,this.view!==null&&(t.object.view=Object.assign({},this.view)),t}},Yl=class extends ro{constructor(){super(new Ms(-5,5,5,-5,.5,500)),this.isDirectionalLightShadow=!0}},bs=class extends ys{constructor(e,t){super(e,t),this.isDirectionalLight=!0,this.type="DirectionalLight",this.position.copy(ln.DEFAULT_UP),this.updateMatrix(),this.target=new ln,this.shadow=new Yl}dispose(){super.dispose(),this.shadow.dispose()}copy(e){return super.copy(e),this.target=e.target.clone(),this.shadow=e.shadow.clone(),this}toJSON(e){let t=super.toJSON(e);return t.object.shadow=this.shadow.toJSON(),t.object.target=this.target.uuid,t}};var xr=-90,Sr=1,Dr=class extends ln{constructor(e,t,n){super(),this.type="CubeCamera",this.renderTarget=n,this.coordinateSystem=null,this.activeMipmapLevel=0;let s=new gn(xr,Sr,e,t);s.layers=this.layers,this.add(s);let o=new gn(xr,Sr,e,t);o.layers=this.layers,this.add(o);let c=new gn(xr,Sr,e,t);c.layers=this.layers,this.add(c);let h=new gn(xr,Sr,e,t);h.layers=this.layers,this.add(h);let f=new gn(xr,Sr,e,t);f.layers=this.layers,this.add(f);let d=new gn(xr,Sr,e,t);d.layers=this.layers,this.add(d)}updateCoordinateSystem(){let e=this.coordinateSystem,t=this.children.concat(),[n,s,o,c,h,f]=t;for(let d of t)this.remove(d);if(e===In)n.up.set(0,1,0),n.lookAt(1,0,0),s.up.set(0,1,0),s.lookAt(-1,0,0),o.up.set(0,0,-1),o.lookAt(0,1,0),c.up.set(0,0,1),c.lookAt(0,-1,0),h.up.set(0,1,0),h.lookAt(0,0,1),f.up.set(0,1,0),f.lookAt(0,0,-1);else if(e===wr)n.up.set(0,-1,0),n.lookAt(-1,0,0),s.up.set(0,-1,0),s.lookAt(1,0,0),o.up.set(0,0,1),o.lookAt(0,1,0),c.up.set(0,0,-1),c.lookAt(0,-1,0),h.up.set(0,-1,0),h.lookAt(0,0,1),f.up.set(0,-1,0),f.lookAt(0,0,-1);else throw new Error("THREE.CubeCamera.updateCoordinateSystem(): Invalid coordinate system: "+e);for(let d of t)this.add(d),d.updateMatrixWorld()}update(e,t){this.parent===null&&this.updateMatrixWorld();let{renderTarget:n,activeMipmapLevel:s}=this;this.coordinateSystem!==e.coordinateSystem&&(this.coordinateSystem=e.coordinateSystem,this.updateCoordinateSystem());let[o,c,h,f,d,m]=this.children,v=e.getRenderTarget(),g=e.getActiveCubeFace(),S=e.getActiveMipmapLevel(),w=e.xr.enabled;e.xr.enabled=!1;let R=n.texture.mipmapsAutoUpdate;n.texture.mipmapsAutoUpdate=!1;let x=!1;e.isWebGLRenderer===!0?x=e.state.buffers.depth.getReversed():x=e.reversedDepthBuffer,e.setRenderTarget(n,0,s),x&&e.autoClear===!1&&e.clearDepth(),e.render(t,o),e.setRenderTarget(n,1,s),x&&e.autoClear===!1&&e.clearDepth(),e.render(t,c),e.setRenderTarget(n,2,s),x&&e.autoClear===!1&&e.clearDepth(),e.render(t,h),e.setRenderTarget(n,3,s),x&&e.autoClear===!1&&e.clearDepth(),e.render(t,f),e.setRenderTarget(n,4,s),x&&e.autoClear===!1&&e.clearDepth(),e.render(t,d),n.texture.mipmapsAutoUpdate=R,e.setRenderTarget(n,5,s),x&&e.autoClear===!1&&e.clearDepth(),e.render(t,m),e.setRenderTarget(v,g,S),e.xr.enabled=w,n.texture.needsPMREMUpdate=!0}},so=class extends gn{constructor(e=[]){super(),this.isArrayCamera=!0,this.isMultiViewCamera=!1,this.cameras=e,this.perCameraFrustumCulled=!1}};var Rc="\\[\\]\\.:\\/",L0=new RegExp("["+Rc+"]","g"),Pc="[^"+Rc+"]",D0="[^"+Rc.replace("\\.","")+"]",F0=/((?:WC+[\/:])*)/.source.replace("WC",Pc),N0=/(WCOD+)?/.source.replace("WCOD",D0),U0=/(?:\.(WC+)(?:\[(.+)\])?)?/.source.replace("WC",Pc),O0=/\.(WC+)(?:\[(.+)\])?/.source.replace("WC",Pc),B0=new RegExp("^"+F0+N0+U0+O0+"$"),k0=["material","materials","bones","map"],jl=class{constructor(e,t,n){let s=n||kt.parseTrackName(t);this._targetGroup=e,this._bindings=e.subscribe_(t,s)}getValue(e,t){this.bind();let n=this._targetGroup.nCachedObjects_,s=this._bindings[n];s!==void 0&&s.getValue(e,t)}setValue(e,t){let n=this._bindings;for(let s=this._targetGroup.nCachedObjects_,o=n.length;s!==o;++s)n[s].setValue(e,t)}bind(){let e=this._bindings;for(let t=this._targetGroup.nCachedObjects_,n=e.length;t!==n;++t)e[t].bind()}unbind(){let e=this._bindings;for(let t=this._targetGroup.nCachedObjects_,n=e.length;t!==n;++t)e[t].unbind()}},kt=class i{constructor(e,t,n){this.path=t,this.parsedPath=n||i.parseTrackName(t),this.node=i.findNode(e,this.parsedPath.nodeName),this.rootNode=e,this.getValue=this._getValue_unbound,this.setValue=this._setValue_unbound}static create(e,t,n){return e&&e.isAnimationObjectGroup?new i.Composite(e,t,n):new i(e,t,n)}static sanitizeNodeName(e){return e.replace(/\s/g,"_").replace(L0,"")}static parseTrackName(e){let t=B0.exec(e);if(t===null)throw new Error("THREE.PropertyBinding: Cannot parse trackName: "+e);let n={nodeName:t[2],objectName:t[3],objectIndex:t[4],propertyName:t[5],propertyIndex:t[6]},s=n.nodeName&&n.nodeName.lastIndexOf(".");if(s!==void 0&&s!==-1){let o=n.nodeName.substring(s+1);k0.indexOf(o)!==-1&&(n.nodeName=n.nodeName.substring(0,s),n.objectName=o)}if(n.propertyName===null||n.propertyName.length===0)throw new Error("THREE.PropertyBinding: can not parse propertyName from trackName: "+e);return n}static findNode(e,t){if(t===void 0||t===""||t==="."||t===-1||t===e.name||t===e.uuid)return e;if(e.skeleton){let n=e.skeleton.getBoneByName(t);if(n!==void 0)return n}if(e.children){let n=function(o){for(let c=0;c<o.length;c++){let h=o[c];if(h.name===t||h.uuid===t)return h;let f=n(h.children);if(f)return f}return null},s=n(e.children);if(s)return s}return null}_getValue_unavailable(){}_setValue_unavailable(){}_getValue_direct(e,t){e[t]=this.targetObject[this.propertyName]}_getValue_array(e,t){let n=this.resolvedProperty;for(let s=0,o=n.length;s!==o;++s)e[t++]=n[s]}_getValue_arrayElement(e,t){e[t]=this.resolvedProperty[this.propertyIndex]}_getValue_toArray(e,t){this.resolvedProperty.toArray(e,t)}_setValue_direct(e,t){this.targetObject[this.propertyName]=e[t]}_setValue_direct_setNeedsUpdate(e,t){this.targetObject[this.propertyName]=e[t],this.targetObject.needsUpdate=!0}_setValue_direct_setMatrixWorldNeedsUpdate(e,t){this.targetObject[this.propertyName]=e[t],this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_array(e,t){let n=this.resolvedProperty;for(let s=0,o=n.length;s!==o;++s)n[s]=e[t++]}_setValue_array_setNeedsUpdate(e,t){let n=this.resolvedProperty;for(let s=0,o=n.length;s!==o;++s)n[s]=e[t++];this.targetObject.needsUpdate=!0}_setValue_array_setMatrixWorldNeedsUpdate(e,t){let n=this.resolvedProperty;for(let s=0,o=n.length;s!==o;++s)n[s]=e[t++];this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_arrayElement(e,t){this.resolvedProperty[this.propertyIndex]=e[t]}_setValue_arrayElement_setNeedsUpdate(e,t){this.resolvedProperty[this.propertyIndex]=e[t],this.targetObject.needsUpdate=!0}_setValue_arrayElement_setMatrixWorldNeedsUpdate(e,t){this.resolvedProperty[this.propertyIndex]=e[t],this.targetObject.matrixWorldNeedsUpdate=!0}_setValue_fromArray(e,t){this.resolvedProperty.fromArray(e,t)}_setValue_fromArray_setNeedsUpdate(e,t){this.resolvedProperty.fromArray(e,t),this.targetObject.needsUpdate=!0}_setValue_fromArray_setMatrixWorldNeedsUpdate(e,t){this.resolvedProperty.fromArray(e,t),this.targetObject.matrixWorldNeedsUpdate=!0}_getValue_unbound(e,t){this.bind(),this.getValue(e,t)}_setValue_unbound(e,t){this.bind(),this.setValue(e,t)}bind(){let e=this.node,t=this.parsedPath,n=t.objectName,s=t.propertyName,o=t.propertyIndex;if(e||(e=i.findNode(this.rootNode,t.nodeName),this.node=e),this.getValue=this._getValue_unavailable,this.setValue=this._setValue_unavailable,!e){et("PropertyBinding: No target node found for track: "+this.path+".");return}if(n){let d=t.objectIndex;switch(n){case"materials":if(!e.material){tt("PropertyBinding: Can not bind to material as node does not have a material.",this);return}if(!e.material.materials){tt("PropertyBinding: Can not bind to material.materials as node.material does not have a materials array.",this);return}e=e.material.materials;break;case"bones":if(!e.skeleton){tt("PropertyBinding: Can not bind to bones as node does not have a skeleton.",this);return}e=e.skeleton.bones;for(let m=0;m<e.length;m++)if(e[m].name===d){d=m;break}break;case"map":if("map"in e){e=e.map;break}if(!e.material){tt("PropertyBinding: Can not bind to material as node does not have a material.",this);return}if(!e.material.map){tt("PropertyBinding: Can not bind to material.map as node.material does not have a map.",this);return}e=e.material.map;break;default:if(e[n]===void 0){tt("PropertyBinding: Can not bind to objectName of node undefined.",this);return}e=e[n]}if(d!==void 0){if(e[d]===void 0){tt("PropertyBinding: Trying to bind to objectIndex of objectName, but is undefined.",this,e);return}e=e[d]}}let c=e[s];if(c===void 0){let d=t.nodeName;tt("PropertyBinding: Trying to update property for track: "+d+"."+s+" but it wasn't found.",e);return}let h=this.Versioning.None;this.targetObject=e,e.isMaterial===!0?h=this.Versioning.NeedsUpdate:e.isObject3D===!0&&(h=this.Versioning.MatrixWorldNeedsUpdate);let f=this.BindingType.Direct;if(o!==void 0){if(s==="morphTargetInfluences"){if(!e.geometry){tt("PropertyBinding: Can not bind to morphTargetInfluences because node does not have a geometry.",this);return}if(!e.geometry.morphAttributes){tt("PropertyBinding: Can not bind to morphTargetInfluences because node does not have a geometry.morphAttributes.",this);return}e.morphTargetDictionary[o]!==void 0&&(o=e.morphTargetDictionary[o])}f=this.BindingType.ArrayElement,this.resolvedProperty=c,this.propertyIndex=o}else c.fromArray!==void 0&&c.toArray!==void 0?(f=this.BindingType.HasFromToArray,this.resolvedProperty=c):Array.isArray(c)?(f=this.BindingType.EntireArray,this.resolvedProperty=c):this.propertyName=s;this.getValue=this.GetterByBindingType[f],this.setValue=this.SetterByBindingTypeAndVersioning[f][h]}unbind(){this.node=null,this.getValue=this._getValue_unbound,this.setValue=this._setValue_unbound}};kt.Composite=jl;kt.prototype.BindingType={Direct:0,EntireArray:1,ArrayElement:2,HasFromToArray:3};kt.prototype.Versioning={None:0,NeedsUpdate:1,MatrixWorldNeedsUpdate:2};kt.prototype.GetterByBindingType=[kt.prototype._getValue_direct,kt.prototype._getValue_array,kt.prototype._getValue_arrayElement,kt.prototype._getValue_toArray];kt.prototype.SetterByBindingTypeAndVersioning=[[kt.prototype._setValue_direct,kt.prototype._setValue_direct_setNeedsUpdate,kt.prototype._setValue_direct_setMatrixWorldNeedsUpdate],[kt.prototype._setValue_array,kt.prototype._setValue_array_setNeedsUpdate,kt.prototype._setValue_array_setMatrixWorldNeedsUpdate],[kt.prototype._setValue_arrayElement,kt.prototype._setValue_arrayElement_setNeedsUpdate,kt.prototype._setValue_arrayElement_setMatrixWorldNeedsUpdate],[kt.prototype._setValue_fromArray,kt.prototype._setValue_fromArray_setNeedsUpdate,kt.prototype._setValue_fromArray_setMatrixWorldNeedsUpdate]];var ZM=new Float32Array(1);var ou=new It,Fr=class{constructor(e,t,n=0,s=1/0){this.ray=new Pr(e,t),this.near=n,this.far=s,this.camera=null,this.layers=new Cr,this.params={Mesh:{},Line:{threshold:1},LOD:{},Points:{threshold:1},Sprite:{}}}set(e,t){this.ray.set(e,t)}setFromCamera(e,t){t.isPerspectiveCamera?(this.ray.origin.setFromMatrixPosition(t.matrixWorld),this.ray.direction.set(e.x,e.y,.5).unproject(t).sub(this.ray.origin).normalize(),this.camera=t):t.isOrthographicCamera?(this.ray.origin.set(e.x,e.y,t.projectionMatrix.elements[14]).unproject(t),this.ray.direction.set(0,0,-1).transformDirection(t.matrixWorld),this.camera=t):tt("Raycaster: Unsupported camera type: "+t.type)}setFromXRController(e){return ou.identity().extractRotation(e.matrixWorld),this.ray.origin.setFromMatrixPosition(e.matrixWorld),this.ray.direction.set(0,0,-1).applyMatrix4(ou),this}intersectObject(e,t=!0,n=[]){return Jl(e,this,n,t),n.sort(lu),n}intersectObjects(e,t=!0,n=[]){for(let s=0,o=e.length;s<o;s++)Jl(e[s],this,n,t);return n.sort(lu),n}};function lu(i,e){return i.distance-e.distance}function Jl(i,e,t,n){let s=!0;if(i.layers.test(e.layers)&&i.raycast(e,t)===!1&&(s=!1),s===!0&&n===!0){let o=i.children;for(let c=0,h=o.length;c<h;c++)Jl(o[c],e,t,!0)}}var Zl=class{static{this.prototype.isMatrix2=!0}constructor(e,t,n,s){this.elements=[1,0,0,1],e!==void 0&&this.set(e,t,n,s)}identity(){return this.set(1,0,0,1),this}fromArray(e,t=0){for(let n=0;n<4;n++)this.elements[n]=e[n+t];return this}set(e,t,n,s){let o=this.elements;return o[0]=e,o[2]=t,o[1]=n,o[3]=s,this}};function Ic(i,e,t,n){let s=z0(n);switch(t){case _c:return i*e;case yc:return i*e/s.components*s.byteLength;case fo:return i*e/s.components*s.byteLength;case Ui:return i*e*2/s.components*s.byteLength;case po:return i*e*2/s.components*s.byteLength;case vc:return i*e*3/s.components*s.byteLength;case Hn:return i*e*4/s.components*s.byteLength;case mo:return i*e*4/s.components*s.byteLength;case Es:case Ts:return Math.floor((i+3)/4)*Math.floor((e+3)/4)*8;case As:case Cs:return Math.floor((i+3)/4)*Math.floor((e+3)/4)*16;case _o:case yo:return Math.max(i,16)*Math.max(e,8)/4;case go:case vo:return Math.max(i,8)*Math.max(e,8)/2;case xo:case So:case bo:case wo:return Math.floor((i+3)/4)*Math.floor((e+3)/4)*8;case Mo:case Rs:case Eo:return Math.floor((i+3)/4)*Math.floor((e+3)/4)*16;case To:return Math.floor((i+3)/4)*Math.floor((e+3)/4)*16;case Ao:return Math.floor((i+4)/5)*Math.floor((e+3)/4)*16;case Co:return Math.floor((i+4)/5)*Math.floor((e+4)/5)*16;case Ro:return Math.floor((i+5)/6)*Math.floor((e+4)/5)*16;case Po:return Math.floor((i+5)/6)*Math.floor((e+5)/6)*16;case Io:return Math.floor((i+7)/8)*Math.floor((e+4)/5)*16;case Lo:return Math.floor((i+7)/8)*Math.floor((e+5)/6)*16;case Do:return Math.floor((i+7)/8)*Math.floor((e+7)/8)*16;case Fo:return Math.floor((i+9)/10)*Math.floor((e+4)/5)*16;case No:return Math.floor((i+9)/10)*Math.floor((e+5)/6)*16;case Uo:return Math.floor((i+9)/10)*Math.floor((e+7)/8)*16;case Oo:return Math.floor((i+9)/10)*Math.floor((e+9)/10)*16;case Bo:return Math.floor((i+11)/12)*Math.floor((e+9)/10)*16;case ko:return Math.floor((i+11)/12)*Math.floor((e+11)/12)*16;case zo:case Go:case Vo:return Math.ceil(i/4)*Math.ceil(e/4)*16;case Ho:case Wo:return Math.ceil(i/4)*Math.ceil(e/4)*8;case Ps:case Xo:return Math.ceil(i/4)*Math.ceil(e/4)*16}throw new Error(`Unable to determine texture byte length for ${t} format.`)}function z0(i){switch(i){case Sn:case fc:return{byteLength:1,components:1};case Br:case pc:case Vn:return{byteLength:2,components:1};case ho:case uo:return{byteLength:2,components:4};case zn:case co:case Gn:return{byteLength:4,components:1};case mc:case gc:return{byteLength:4,components:3}}throw new Error(`THREE.TextureUtils: Unknown texture type ${i}.`)}typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("register",{detail:{revision:"187"}}));typeof window<"u"&&(window.__THREE__?et("WARNING: Multiple instances of Three.js being imported."):window.__THREE__="187");function yd(){let i=null,e=!1,t=null,n=null;function s(o,c){n=i.requestAnimationFrame(s),t(o,c)}return{start:function(){e!==!0&&t!==null&&i!==null&&(n=i.requestAnimationFrame(s),e=!0)},stop:function(){i!==null&&i.cancelAnimationFrame(n),e=!1},setAnimationLoop:function(o){t=o},setContext:function(o){i=o}}}function V0(i){let e=new WeakMap;function t(h,f){let d=h.array,m=h.usage,v=d.byteLength,g=i.createBuffer();i.bindBuffer(f,g),i.bufferData(f,d,m),h.onUploadCallback();let S;if(d instanceof Float32Array)S=i.FLOAT;else if(typeof Float16Array<"u"&&d instanceof Float16Array)S=i.HALF_FLOAT;else if(d instanceof Uint16Array)h.isFloat16BufferAttribute?S=i.HALF_FLOAT:S=i.UNSIGNED_SHORT;else if(d instanceof Int16Array)S=i.SHORT;else if(d instanceof Uint32Array)S=i.UNSIGNED_INT;else if(d instanceof Int32Array)S=i.INT;else if(d instanceof Int8Array)S=i.BYTE;else if(d instanceof Uint8Array)S=i.UNSIGNED_BYTE;else if(d instanceof Uint8ClampedArray)S=i.UNSIGNED_BYTE;else throw new Error("THREE.WebGLAttributes: Unsupported buffer data format: "+d);return{buffer:g,type:S,bytesPerElement:d.BYTES_PER_ELEMENT,version:h.version,size:v}}function n(h,f,d){let m=f.array,v=f.updateRanges;if(i.bindBuffer(d,h),v.length===0)i.bufferSubData(d,0,m);else{v.sort((S,w)=>S.start-w.start);let g=0;for(let S=1;S<v.length;S++){let w=v[g],R=v[S];R.start<=w.start+w.count+1?w.count=Math.max(w.count,R.start+R.count-w.start):(++g,v[g]=R)}v.length=g+1;for(let S=0,w=v.length;S<w;S++){let R=v[S];i.bufferSubData(d,R.start*m.BYTES_PER_ELEMENT,m,R.start,R.count)}f.clearUpdateRanges()}f.onUploadCallback()}function s(h){return h.isInterleavedBufferAttribute&&(h=h.data),e.get(h)}function o(h){h.isInterleavedBufferAttribute&&(h=h.data);let f=e.get(h);f&&(i.deleteBuffer(f.buffer),e.delete(h))}function c(h,f){if(h.isInterleavedBufferAttribute&&(h=h.data),h.isGLBufferAttribute){let m=e.get(h);(!m||m.version<h.version)&&e.set(h,{buffer:h.buffer,type:h.type,bytesPerElement:h.elementSize,version:h.version});return}let d=e.get(h);if(d===void 0)e.set(h,t(h,f));else if(d.version<h.version){if(d.size!==h.array.byteLength)throw new Error("THREE.WebGLAttributes: The size of the buffer attribute's array buffer does not match the original size. Resizing buffer attributes is not supported.");n(d.buffer,h,f),d.version=h.version}}return{get:s,remove:o,update:c}}var H0=`#ifdef USE_ALPHAHASH
+	if ( diffuseColor.a < getAlphaHashThreshold( vPosition ) ) discard;
+#endif`,W0=`#ifdef USE_ALPHAHASH
+	const float ALPHA_HASH_SCALE = 0.05;
+	float hash2D( vec2 value ) {
+		return fract( 1.0e4 * sin( 17.0 * value.x + 0.1 * value.y ) * ( 0.1 + abs( sin( 13.0 * value.y + value.x ) ) ) );
+	}
+	float hash3D( vec3 value ) {
+		return hash2D( vec2( hash2D( value.xy ), value.z ) );
+	}
+	float getAlphaHashThreshold( vec3 position ) {
+		float maxDeriv = max(
+			length( dFdx( position.xyz ) ),
+			length( dFdy( position.xyz ) )
+		);
+		float pixScale = 1.0 / ( ALPHA_HASH_SCALE * maxDeriv );
+		vec2 pixScales = vec2(
+			exp2( floor( log2( pixScale ) ) ),
+			exp2( ceil( log2( pixScale ) ) )
+		);
+		vec2 alpha = vec2(
+			hash3D( floor( pixScales.x * position.xyz ) ),
+			hash3D( floor( pixScales.y * position.xyz ) )
+		);
+		float lerpFactor = fract( log2( pixScale ) );
+		float x = ( 1.0 - lerpFactor ) * alpha.x + lerpFactor * alpha.y;
+		float a = min( lerpFactor, 1.0 - lerpFactor );
+		vec3 cases = vec3(
+			x * x / ( 2.0 * a * ( 1.0 - a ) ),
+			( x - 0.5 * a ) / ( 1.0 - a ),
+			1.0 - ( ( 1.0 - x ) * ( 1.0 - x ) / ( 2.0 * a * ( 1.0 - a ) ) )
+		);
+		float threshold = ( x < ( 1.0 - a ) )
+			? ( ( x < a ) ? cases.x : cases.y )
+			: cases.z;
+		return clamp( threshold , 1.0e-6, 1.0 );
+	}
+#endif`,X0=`#ifdef USE_ALPHAMAP
+	diffuseColor.a *= texture2D( alphaMap, vAlphaMapUv ).g;
+#endif`,$0=`#ifdef USE_ALPHAMAP
+	uniform sampler2D alphaMap;
+#endif`,q0=`#ifdef USE_ALPHATEST
+	#ifdef ALPHA_TO_COVERAGE
+	diffuseColor.a = smoothstep( alphaTest, alphaTest + fwidth( diffuseColor.a ), diffuseColor.a );
+	if ( diffuseColor.a == 0.0 ) discard;
+	#else
+	if ( diffuseColor.a < alphaTest ) discard;
+	#endif
+#endif`,Y0=`#ifdef USE_ALPHATEST
+	uniform float alphaTest;
+#endif`,j0=`#ifdef USE_AOMAP
+	float ambientOcclusion = ( texture2D( aoMap, vAoMapUv ).r - 1.0 ) * aoMapIntensity + 1.0;
+	reflectedLight.indirectDiffuse *= ambientOcclusion;
+	#if defined( USE_CLEARCOAT ) 
+		clearcoatSpecularIndirect *= ambientOcclusion;
+	#endif
+	#if defined( USE_SHEEN ) 
+		sheenSpecularIndirect *= ambientOcclusion;
+	#endif
+	#if defined( USE_ENVMAP ) && defined( STANDARD )
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		reflectedLight.indirectSpecular *= computeSpecularOcclusion( dotNV, ambientOcclusion, material.roughness );
+	#endif
+#endif`,J0=`#ifdef USE_AOMAP
+	uniform sampler2D aoMap;
+	uniform float aoMapIntensity;
+#endif`,Z0=`#ifdef USE_BATCHING
+	#if ! defined( GL_ANGLE_multi_draw )
+	#define gl_DrawID _gl_DrawID
+	uniform int _gl_DrawID;
+	#endif
+	uniform highp sampler2D batchingTexture;
+	uniform highp usampler2D batchingIdTexture;
+	mat4 getBatchingMatrix( const in float i ) {
+		int size = textureSize( batchingTexture, 0 ).x;
+		int j = int( i ) * 4;
+		int x = j % size;
+		int y = j / size;
+		vec4 v1 = texelFetch( batchingTexture, ivec2( x, y ), 0 );
+		vec4 v2 = texelFetch( batchingTexture, ivec2( x + 1, y ), 0 );
+		vec4 v3 = texelFetch( batchingTexture, ivec2( x + 2, y ), 0 );
+		vec4 v4 = texelFetch( batchingTexture, ivec2( x + 3, y ), 0 );
+		return mat4( v1, v2, v3, v4 );
+	}
+	float getIndirectIndex( const in int i ) {
+		int size = textureSize( batchingIdTexture, 0 ).x;
+		int x = i % size;
+		int y = i / size;
+		return float( texelFetch( batchingIdTexture, ivec2( x, y ), 0 ).r );
+	}
+#endif
+#ifdef USE_BATCHING_COLOR
+	uniform sampler2D batchingColorTexture;
+	vec4 getBatchingColor( const in float i ) {
+		int size = textureSize( batchingColorTexture, 0 ).x;
+		int j = int( i );
+		int x = j % size;
+		int y = j / size;
+		return texelFetch( batchingColorTexture, ivec2( x, y ), 0 );
+	}
+#endif`,K0=`#ifdef USE_BATCHING
+	mat4 batchingMatrix = getBatchingMatrix( getIndirectIndex( gl_DrawID ) );
+#endif`,Q0=`vec3 transformed = vec3( position );
+#ifdef USE_ALPHAHASH
+	vPosition = vec3( position );
+#endif`,ev=`vec3 objectNormal = vec3( normal );
+#ifdef USE_TANGENT
+	vec3 objectTangent = vec3( tangent.xyz );
+#endif`,tv=`float G_BlinnPhong_Implicit( ) {
+	return 0.25;
+}
+float D_BlinnPhong( const in float shininess, const in float dotNH ) {
+	return RECIPROCAL_PI * ( shininess * 0.5 + 1.0 ) * pow( dotNH, shininess );
+}
+vec3 BRDF_BlinnPhong( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in vec3 specularColor, const in float shininess ) {
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float dotVH = saturate( dot( viewDir, halfDir ) );
+	vec3 F = F_Schlick( specularColor, 1.0, dotVH );
+	float G = G_BlinnPhong_Implicit( );
+	float D = D_BlinnPhong( shininess, dotNH );
+	return F * ( G * D );
+} // validated`,nv=`#ifdef USE_IRIDESCENCE
+	const mat3 XYZ_TO_REC709 = mat3(
+		 3.2404542, -0.9692660,  0.0556434,
+		-1.5371385,  1.8760108, -0.2040259,
+		-0.4985314,  0.0415560,  1.0572252
+	);
+	vec3 Fresnel0ToIor( vec3 fresnel0 ) {
+		vec3 sqrtF0 = sqrt( fresnel0 );
+		return ( vec3( 1.0 ) + sqrtF0 ) / ( vec3( 1.0 ) - sqrtF0 );
+	}
+	vec3 IorToFresnel0( vec3 transmittedIor, float incidentIor ) {
+		return pow2( ( transmittedIor - vec3( incidentIor ) ) / ( transmittedIor + vec3( incidentIor ) ) );
+	}
+	float IorToFresnel0( float transmittedIor, float incidentIor ) {
+		return pow2( ( transmittedIor - incidentIor ) / ( transmittedIor + incidentIor ));
+	}
+	vec3 evalSensitivity( float OPD, vec3 shift ) {
+		float phase = 2.0 * PI * OPD * 1.0e-9;
+		vec3 val = vec3( 5.4856e-13, 4.4201e-13, 5.2481e-13 );
+		vec3 pos = vec3( 1.6810e+06, 1.7953e+06, 2.2084e+06 );
+		vec3 var = vec3( 4.3278e+09, 9.3046e+09, 6.6121e+09 );
+		vec3 xyz = val * sqrt( 2.0 * PI * var ) * cos( pos * phase + shift ) * exp( - pow2( phase ) * var );
+		xyz.x += 9.7470e-14 * sqrt( 2.0 * PI * 4.5282e+09 ) * cos( 2.2399e+06 * phase + shift[ 0 ] ) * exp( - 4.5282e+09 * pow2( phase ) );
+		xyz /= 1.0685e-7;
+		vec3 rgb = XYZ_TO_REC709 * xyz;
+		return rgb;
+	}
+	vec3 evalIridescence( float outsideIOR, float eta2, float cosTheta1, float thinFilmThickness, vec3 baseF0 ) {
+		vec3 I;
+		float iridescenceIOR = mix( outsideIOR, eta2, smoothstep( 0.0, 0.03, thinFilmThickness ) );
+		float sinTheta2Sq = pow2( outsideIOR / iridescenceIOR ) * ( 1.0 - pow2( cosTheta1 ) );
+		float cosTheta2Sq = 1.0 - sinTheta2Sq;
+		if ( cosTheta2Sq < 0.0 ) {
+			return vec3( 1.0 );
+		}
+		float cosTheta2 = sqrt( cosTheta2Sq );
+		float R0 = IorToFresnel0( iridescenceIOR, outsideIOR );
+		float R12 = F_Schlick( R0, 1.0, cosTheta1 );
+		float T121 = 1.0 - R12;
+		float phi12 = 0.0;
+		if ( iridescenceIOR < outsideIOR ) phi12 = PI;
+		float phi21 = PI - phi12;
+		vec3 baseIOR = Fresnel0ToIor( clamp( baseF0, 0.0, 0.9999 ) );		vec3 R1 = IorToFresnel0( baseIOR, iridescenceIOR );
+		vec3 R23 = F_Schlick( R1, 1.0, cosTheta2 );
+		vec3 phi23 = vec3( 0.0 );
+		if ( baseIOR[ 0 ] < iridescenceIOR ) phi23[ 0 ] = PI;
+		if ( baseIOR[ 1 ] < iridescenceIOR ) phi23[ 1 ] = PI;
+		if ( baseIOR[ 2 ] < iridescenceIOR ) phi23[ 2 ] = PI;
+		float OPD = 2.0 * iridescenceIOR * thinFilmThickness * cosTheta2;
+		vec3 phi = vec3( phi21 ) + phi23;
+		vec3 R123 = clamp( R12 * R23, 1e-5, 0.9999 );
+		vec3 r123 = sqrt( R123 );
+		vec3 Rs = pow2( T121 ) * R23 / ( vec3( 1.0 ) - R123 );
+		vec3 C0 = R12 + Rs;
+		I = C0;
+		vec3 Cm = Rs - T121;
+		for ( int m = 1; m <= 2; ++ m ) {
+			Cm *= r123;
+			vec3 Sm = 2.0 * evalSensitivity( float( m ) * OPD, float( m ) * phi );
+			I += Cm * Sm;
+		}
+		return max( I, vec3( 0.0 ) );
+	}
+#endif`,iv=`#ifdef USE_BUMPMAP
+	uniform sampler2D bumpMap;
+	uniform float bumpScale;
+	vec2 dHdxy_fwd() {
+		vec2 dSTdx = dFdx( vBumpMapUv );
+		vec2 dSTdy = dFdy( vBumpMapUv );
+		float Hll = bumpScale * texture2D( bumpMap, vBumpMapUv ).x;
+		float dBx = bumpScale * texture2D( bumpMap, vBumpMapUv + dSTdx ).x - Hll;
+		float dBy = bumpScale * texture2D( bumpMap, vBumpMapUv + dSTdy ).x - Hll;
+		return vec2( dBx, dBy );
+	}
+	vec3 perturbNormalArb( vec3 surf_pos, vec3 surf_norm, vec2 dHdxy, float faceDirection ) {
+		vec3 vSigmaX = normalize( dFdx( surf_pos.xyz ) );
+		vec3 vSigmaY = normalize( dFdy( surf_pos.xyz ) );
+		vec3 vN = surf_norm;
+		vec3 R1 = cross( vSigmaY, vN );
+		vec3 R2 = cross( vN, vSigmaX );
+		float fDet = dot( vSigmaX, R1 ) * faceDirection;
+		vec3 vGrad = sign( fDet ) * ( dHdxy.x * R1 + dHdxy.y * R2 );
+		return normalize( abs( fDet ) * surf_norm - vGrad );
+	}
+#endif`,rv=`#if NUM_CLIPPING_PLANES > 0
+	vec4 plane;
+	#ifdef ALPHA_TO_COVERAGE
+		float distanceToPlane, distanceGradient;
+		float clipOpacity = 1.0;
+		#pragma unroll_loop_start
+		for ( int i = 0; i < UNION_CLIPPING_PLANES; i ++ ) {
+			plane = clippingPlanes[ i ];
+			distanceToPlane = - dot( vClipPosition, plane.xyz ) + plane.w;
+			distanceGradient = fwidth( distanceToPlane ) / 2.0;
+			clipOpacity *= smoothstep( - distanceGradient, distanceGradient, distanceToPlane );
+			if ( clipOpacity == 0.0 ) discard;
+		}
+		#pragma unroll_loop_end
+		#if UNION_CLIPPING_PLANES < NUM_CLIPPING_PLANES
+			float unionClipOpacity = 1.0;
+			#pragma unroll_loop_start
+			for ( int i = UNION_CLIPPING_PLANES; i < NUM_CLIPPING_PLANES; i ++ ) {
+				plane = clippingPlanes[ i ];
+				distanceToPlane = - dot( vClipPosition, plane.xyz ) + plane.w;
+				distanceGradient = fwidth( distanceToPlane ) / 2.0;
+				unionClipOpacity *= 1.0 - smoothstep( - distanceGradient, distanceGradient, distanceToPlane );
+			}
+			#pragma unroll_loop_end
+			clipOpacity *= 1.0 - unionClipOpacity;
+		#endif
+		diffuseColor.a *= clipOpacity;
+		if ( diffuseColor.a == 0.0 ) discard;
+	#else
+		#pragma unroll_loop_start
+		for ( int i = 0; i < UNION_CLIPPING_PLANES; i ++ ) {
+			plane = clippingPlanes[ i ];
+			if ( dot( vClipPosition, plane.xyz ) > plane.w ) discard;
+		}
+		#pragma unroll_loop_end
+		#if UNION_CLIPPING_PLANES < NUM_CLIPPING_PLANES
+			bool clipped = true;
+			#pragma unroll_loop_start
+			for ( int i = UNION_CLIPPING_PLANES; i < NUM_CLIPPING_PLANES; i ++ ) {
+				plane = clippingPlanes[ i ];
+				clipped = ( dot( vClipPosition, plane.xyz ) > plane.w ) && clipped;
+			}
+			#pragma unroll_loop_end
+			if ( clipped ) discard;
+		#endif
+	#endif
+#endif`,sv=`#if NUM_CLIPPING_PLANES > 0
+	varying vec3 vClipPosition;
+	uniform vec4 clippingPlanes[ NUM_CLIPPING_PLANES ];
+#endif`,av=`#if NUM_CLIPPING_PLANES > 0
+	varying vec3 vClipPosition;
+#endif`,ov=`#if NUM_CLIPPING_PLANES > 0
+	vClipPosition = - mvPosition.xyz;
+#endif`,lv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA )
+	diffuseColor *= vColor;
+#endif`,cv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA )
+	varying vec4 vColor;
+#endif`,hv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA ) || defined( USE_INSTANCING_COLOR ) || defined( USE_BATCHING_COLOR )
+	varying vec4 vColor;
+#endif`,uv=`#if defined( USE_COLOR ) || defined( USE_COLOR_ALPHA ) || defined( USE_INSTANCING_COLOR ) || defined( USE_BATCHING_COLOR )
+	vColor = vec4( 1.0 );
+#endif
+#ifdef USE_COLOR_ALPHA
+	vColor *= color;
+#elif defined( USE_COLOR )
+	vColor.rgb *= color;
+#endif
+#ifdef USE_INSTANCING_COLOR
+	vColor.rgb *= instanceColor.rgb;
+#endif
+#ifdef USE_BATCHING_COLOR
+	vColor *= getBatchingColor( getIndirectIndex( gl_DrawID ) );
+#endif`,dv=`#define PI 3.141592653589793
+#define PI2 6.283185307179586
+#define PI_HALF 1.5707963267948966
+#define RECIPROCAL_PI 0.3183098861837907
+#define RECIPROCAL_PI2 0.15915494309189535
+#define EPSILON 1e-6
+#ifndef saturate
+#define saturate( a ) clamp( a, 0.0, 1.0 )
+#endif
+#define whiteComplement( a ) ( 1.0 - saturate( a ) )
+float pow2( const in float x ) { return x*x; }
+vec3 pow2( const in vec3 x ) { return x*x; }
+float pow3( const in float x ) { return x*x*x; }
+float pow4( const in float x ) { float x2 = x*x; return x2*x2; }
+float max3( const in vec3 v ) { return max( max( v.x, v.y ), v.z ); }
+float average( const in vec3 v ) { return dot( v, vec3( 0.3333333 ) ); }
+highp float rand( const in vec2 uv ) {
+	const highp float a = 12.9898, b = 78.233, c = 43758.5453;
+	highp float dt = dot( uv.xy, vec2( a,b ) ), sn = mod( dt, PI );
+	return fract( sin( sn ) * c );
+}
+#ifdef HIGH_PRECISION
+	float precisionSafeLength( vec3 v ) { return length( v ); }
+#else
+	float precisionSafeLength( vec3 v ) {
+		float maxComponent = max3( abs( v ) );
+		return length( v / maxComponent ) * maxComponent;
+	}
+#endif
+struct IncidentLight {
+	vec3 color;
+	vec3 direction;
+	bool visible;
+};
+struct ReflectedLight {
+	vec3 directDiffuse;
+	vec3 directSpecular;
+	vec3 indirectDiffuse;
+	vec3 indirectSpecular;
+};
+#ifdef USE_ALPHAHASH
+	varying vec3 vPosition;
+#endif
+vec3 transformDirection( in vec3 dir, in mat4 matrix ) {
+	return normalize( ( matrix * vec4( dir, 0.0 ) ).xyz );
+}
+#define inverseTransformDirection transformDirectionByInverseViewMatrix
+vec3 transformNormalByInverseViewMatrix( in vec3 normal, in mat4 viewMatrix ) {
+	return normalize( ( vec4( normal, 0.0 ) * viewMatrix ).xyz );
+}
+vec3 transformDirectionByInverseViewMatrix( in vec3 dir, in mat4 viewMatrix ) {
+	return normalize( ( vec4( dir, 0.0 ) * viewMatrix ).xyz );
+}
+bool isPerspectiveMatrix( mat4 m ) {
+	return m[ 2 ][ 3 ] == - 1.0;
+}
+vec2 equirectUv( in vec3 dir ) {
+	float u = atan( dir.z, dir.x ) * RECIPROCAL_PI2 + 0.5;
+	float v = asin( clamp( dir.y, - 1.0, 1.0 ) ) * RECIPROCAL_PI + 0.5;
+	return vec2( u, v );
+}
+vec3 BRDF_Lambert( const in vec3 diffuseColor ) {
+	return RECIPROCAL_PI * diffuseColor;
+}
+vec3 F_Schlick( const in vec3 f0, const in float f90, const in float dotVH ) {
+	float fresnel = exp2( ( - 5.55473 * dotVH - 6.98316 ) * dotVH );
+	return f0 * ( 1.0 - fresnel ) + ( f90 * fresnel );
+}
+float F_Schlick( const in float f0, const in float f90, const in float dotVH ) {
+	float fresnel = exp2( ( - 5.55473 * dotVH - 6.98316 ) * dotVH );
+	return f0 * ( 1.0 - fresnel ) + ( f90 * fresnel );
+} // validated`,fv=`vec3 transformedNormal = objectNormal;
+#ifdef USE_TANGENT
+	vec3 transformedTangent = objectTangent;
+#endif
+#ifdef USE_BATCHING
+	mat3 bm = mat3( batchingMatrix );
+	transformedNormal /= vec3( dot( bm[ 0 ], bm[ 0 ] ), dot( bm[ 1 ], bm[ 1 ] ), dot( bm[ 2 ], bm[ 2 ] ) );
+	transformedNormal = bm * transformedNormal;
+	#ifdef USE_TANGENT
+		transformedTangent = bm * transformedTangent;
+	#endif
+#endif
+#ifdef USE_INSTANCING
+	mat3 im = mat3( instanceMatrix );
+	transformedNormal /= vec3( dot( im[ 0 ], im[ 0 ] ), dot( im[ 1 ], im[ 1 ] ), dot( im[ 2 ], im[ 2 ] ) );
+	transformedNormal = im * transformedNormal;
+	#ifdef USE_TANGENT
+		transformedTangent = im * transformedTangent;
+	#endif
+#endif
+transformedNormal = normalMatrix * transformedNormal;
+#ifdef FLIP_SIDED
+	transformedNormal = - transformedNormal;
+#endif
+#ifdef USE_TANGENT
+	transformedTangent = ( modelViewMatrix * vec4( transformedTangent, 0.0 ) ).xyz;
+#endif`,pv=`#ifdef USE_DISPLACEMENTMAP
+	uniform sampler2D displacementMap;
+	uniform float displacementScale;
+	uniform float displacementBias;
+#endif`,mv=`#ifdef USE_DISPLACEMENTMAP
+	transformed += normalize( objectNormal ) * ( texture2D( displacementMap, vDisplacementMapUv ).x * displacementScale + displacementBias );
+#endif`,gv=`#ifdef USE_EMISSIVEMAP
+	vec4 emissiveColor = texture2D( emissiveMap, vEmissiveMapUv );
+	#ifdef DECODE_VIDEO_TEXTURE_EMISSIVE
+		emissiveColor = sRGBTransferEOTF( emissiveColor );
+	#endif
+	totalEmissiveRadiance *= emissiveColor.rgb;
+#endif`,_v=`#ifdef USE_EMISSIVEMAP
+	uniform sampler2D emissiveMap;
+#endif`,vv="gl_FragColor = linearToOutputTexel( gl_FragColor );",yv=`vec4 LinearTransferOETF( in vec4 value ) {
+	return value;
+}
+vec4 sRGBTransferEOTF( in vec4 value ) {
+	return vec4( mix( pow( value.rgb * 0.9478672986 + vec3( 0.0521327014 ), vec3( 2.4 ) ), value.rgb * 0.0773993808, vec3( lessThanEqual( value.rgb, vec3( 0.04045 ) ) ) ), value.a );
+}
+vec4 sRGBTransferOETF( in vec4 value ) {
+	return vec4( mix( pow( value.rgb, vec3( 0.41666 ) ) * 1.055 - vec3( 0.055 ), value.rgb * 12.92, vec3( lessThanEqual( value.rgb, vec3( 0.0031308 ) ) ) ), value.a );
+}`,xv=`#ifdef USE_ENVMAP
+	#ifdef ENV_WORLDPOS
+		vec3 cameraToFrag;
+		if ( isOrthographic ) {
+			cameraToFrag = normalize( vec3( - viewMatrix[ 0 ][ 2 ], - viewMatrix[ 1 ][ 2 ], - viewMatrix[ 2 ][ 2 ] ) );
+		} else {
+			cameraToFrag = normalize( vWorldPosition - cameraPosition );
+		}
+		vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+		#ifdef ENVMAP_MODE_REFLECTION
+			vec3 reflectVec = reflect( cameraToFrag, worldNormal );
+		#else
+			vec3 reflectVec = refract( cameraToFrag, worldNormal, refractionRatio );
+		#endif
+	#else
+		vec3 reflectVec = vReflect;
+	#endif
+	#ifdef ENVMAP_TYPE_CUBE
+		vec4 envColor = textureCube( envMap, envMapRotation * reflectVec );
+		#ifdef ENVMAP_BLENDING_MULTIPLY
+			outgoingLight = mix( outgoingLight, outgoingLight * envColor.xyz, specularStrength * reflectivity );
+		#elif defined( ENVMAP_BLENDING_MIX )
+			outgoingLight = mix( outgoingLight, envColor.xyz, specularStrength * reflectivity );
+		#elif defined( ENVMAP_BLENDING_ADD )
+			outgoingLight += envColor.xyz * specularStrength * reflectivity;
+		#endif
+	#endif
+#endif`,Sv=`#ifdef USE_ENVMAP
+	uniform float envMapIntensity;
+	uniform mat3 envMapRotation;
+	uniform samplerCube envMap;
+	#ifdef ENVMAP_TYPE_PMREM
+		float roughnessToMip( const in float roughness ) {
+			float r = clamp( roughness, 0.0, 1.0 );
+			return ENVMAP_MAX_LOD * r * ( 2.0 - r );
+		}
+	#endif
+#endif`,Mv=`#ifdef USE_ENVMAP
+	uniform float reflectivity;
+	#if defined( USE_BUMPMAP ) || defined( USE_NORMALMAP ) || defined( PHONG ) || defined( LAMBERT )
+		#define ENV_WORLDPOS
+	#endif
+	#ifdef ENV_WORLDPOS
+		varying vec3 vWorldPosition;
+		uniform float refractionRatio;
+	#else
+		varying vec3 vReflect;
+	#endif
+#endif`,bv=`#ifdef USE_ENVMAP
+	#if defined( USE_BUMPMAP ) || defined( USE_NORMALMAP ) || defined( PHONG ) || defined( LAMBERT )
+		#define ENV_WORLDPOS
+	#endif
+	#ifdef ENV_WORLDPOS
+		
+		varying vec3 vWorldPosition;
+	#else
+		varying vec3 vReflect;
+		uniform float refractionRatio;
+	#endif
+#endif`,wv=`#ifdef USE_ENVMAP
+	#ifdef ENV_WORLDPOS
+		vWorldPosition = worldPosition.xyz;
+	#else
+		vec3 cameraToVertex;
+		if ( isOrthographic ) {
+			cameraToVertex = normalize( vec3( - viewMatrix[ 0 ][ 2 ], - viewMatrix[ 1 ][ 2 ], - viewMatrix[ 2 ][ 2 ] ) );
+		} else {
+			cameraToVertex = normalize( worldPosition.xyz - cameraPosition );
+		}
+		vec3 worldNormal = transformNormalByInverseViewMatrix( transformedNormal, viewMatrix );
+		#ifdef ENVMAP_MODE_REFLECTION
+			vReflect = reflect( cameraToVertex, worldNormal );
+		#else
+			vReflect = refract( cameraToVertex, worldNormal, refractionRatio );
+		#endif
+	#endif
+#endif`,Ev=`#ifdef USE_FOG
+	vFogDepth = - mvPosition.z;
+#endif`,Tv=`#ifdef USE_FOG
+	varying float vFogDepth;
+#endif`,Av=`#ifdef USE_FOG
+	#ifdef FOG_EXP2
+		float fogFactor = 1.0 - exp( - fogDensity * fogDensity * vFogDepth * vFogDepth );
+	#else
+		float fogFactor = smoothstep( fogNear, fogFar, vFogDepth );
+	#endif
+	gl_FragColor.rgb = mix( gl_FragColor.rgb, fogColor, fogFactor );
+#endif`,Cv=`#ifdef USE_FOG
+	uniform vec3 fogColor;
+	varying float vFogDepth;
+	#ifdef FOG_EXP2
+		uniform float fogDensity;
+	#else
+		uniform float fogNear;
+		uniform float fogFar;
+	#endif
+#endif`,Rv=`#ifdef USE_GRADIENTMAP
+	uniform sampler2D gradientMap;
+#endif
+vec3 getGradientIrradiance( vec3 normal, vec3 lightDirection ) {
+	float dotNL = dot( normal, lightDirection );
+	vec2 coord = vec2( dotNL * 0.5 + 0.5, 0.0 );
+	#ifdef USE_GRADIENTMAP
+		return vec3( texture2D( gradientMap, coord ).r );
+	#else
+		vec2 fw = fwidth( coord ) * 0.5;
+		return mix( vec3( 0.7 ), vec3( 1.0 ), smoothstep( 0.7 - fw.x, 0.7 + fw.x, coord.x ) );
+	#endif
+}`,Pv=`#ifdef USE_LIGHTMAP
+	uniform sampler2D lightMap;
+	uniform float lightMapIntensity;
+#endif`,Iv=`LambertMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.specularStrength = specularStrength;`,Lv=`varying vec3 vViewPosition;
+struct LambertMaterial {
+	vec3 diffuseColor;
+	float specularStrength;
+};
+void RE_Direct_Lambert( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in LambertMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+void RE_IndirectDiffuse_Lambert( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in LambertMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_Lambert
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Lambert`,Dv=`uniform bool receiveShadow;
+uniform vec3 ambientLightColor;
+#if defined( USE_LIGHT_PROBES )
+	uniform vec3 lightProbe[ 9 ];
+#endif
+vec3 shGetIrradianceAt( in vec3 normal, in vec3 shCoefficients[ 9 ] ) {
+	float x = normal.x, y = normal.y, z = normal.z;
+	vec3 result = shCoefficients[ 0 ] * 0.886227;
+	result += shCoefficients[ 1 ] * 2.0 * 0.511664 * y;
+	result += shCoefficients[ 2 ] * 2.0 * 0.511664 * z;
+	result += shCoefficients[ 3 ] * 2.0 * 0.511664 * x;
+	result += shCoefficients[ 4 ] * 2.0 * 0.429043 * x * y;
+	result += shCoefficients[ 5 ] * 2.0 * 0.429043 * y * z;
+	result += shCoefficients[ 6 ] * ( 0.743125 * z * z - 0.247708 );
+	result += shCoefficients[ 7 ] * 2.0 * 0.429043 * x * z;
+	result += shCoefficients[ 8 ] * 0.429043 * ( x * x - y * y );
+	return result;
+}
+vec3 getLightProbeIrradiance( const in vec3 lightProbe[ 9 ], const in vec3 normal ) {
+	vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+	vec3 irradiance = shGetIrradianceAt( worldNormal, lightProbe );
+	return irradiance;
+}
+vec3 getAmbientLightIrradiance( const in vec3 ambientLightColor ) {
+	vec3 irradiance = ambientLightColor;
+	return irradiance;
+}
+float getDistanceAttenuation( const in float lightDistance, const in float cutoffDistance, const in float decayExponent ) {
+	float distanceFalloff = 1.0 / max( pow( lightDistance, decayExponent ), 0.01 );
+	if ( cutoffDistance > 0.0 ) {
+		distanceFalloff *= pow2( saturate( 1.0 - pow4( lightDistance / cutoffDistance ) ) );
+	}
+	return distanceFalloff;
+}
+float getSpotAttenuation( const in float coneCosine, const in float penumbraCosine, const in float angleCosine ) {
+	return smoothstep( coneCosine, penumbraCosine, angleCosine );
+}
+#if NUM_SUN_LIGHTS > 0
+	struct SunLight {
+		vec3 direction;
+		vec3 color;
+	};
+	uniform SunLight sunLights[ NUM_SUN_LIGHTS ];
+	void getSunLightInfo( const in SunLight sunLight, out IncidentLight light ) {
+		light.color = sunLight.color;
+		light.direction = sunLight.direction;
+		light.visible = true;
+	}
+#endif
+#if NUM_DIR_LIGHTS > 0
+	struct DirectionalLight {
+		vec3 direction;
+		vec3 color;
+	};
+	uniform DirectionalLight directionalLights[ NUM_DIR_LIGHTS ];
+	void getDirectionalLightInfo( const in DirectionalLight directionalLight, out IncidentLight light ) {
+		light.color = directionalLight.color;
+		light.direction = directionalLight.direction;
+		light.visible = true;
+	}
+#endif
+#if NUM_POINT_LIGHTS > 0
+	struct PointLight {
+		vec3 position;
+		vec3 color;
+		float distance;
+		float decay;
+	};
+	uniform PointLight pointLights[ NUM_POINT_LIGHTS ];
+	void getPointLightInfo( const in PointLight pointLight, const in vec3 geometryPosition, out IncidentLight light ) {
+		vec3 lVector = pointLight.position - geometryPosition;
+		light.direction = normalize( lVector );
+		float lightDistance = length( lVector );
+		light.color = pointLight.color;
+		light.color *= getDistanceAttenuation( lightDistance, pointLight.distance, pointLight.decay );
+		light.visible = ( light.color != vec3( 0.0 ) );
+	}
+#endif
+#if NUM_SPOT_LIGHTS > 0
+	struct SpotLight {
+		vec3 position;
+		vec3 direction;
+		vec3 color;
+		float distance;
+		float decay;
+		float coneCos;
+		float penumbraCos;
+	};
+	uniform SpotLight spotLights[ NUM_SPOT_LIGHTS ];
+	void getSpotLightInfo( const in SpotLight spotLight, const in vec3 geometryPosition, out IncidentLight light ) {
+		vec3 lVector = spotLight.position - geometryPosition;
+		light.direction = normalize( lVector );
+		float angleCos = dot( light.direction, spotLight.direction );
+		float spotAttenuation = getSpotAttenuation( spotLight.coneCos, spotLight.penumbraCos, angleCos );
+		if ( spotAttenuation > 0.0 ) {
+			float lightDistance = length( lVector );
+			light.color = spotLight.color * spotAttenuation;
+			light.color *= getDistanceAttenuation( lightDistance, spotLight.distance, spotLight.decay );
+			light.visible = ( light.color != vec3( 0.0 ) );
+		} else {
+			light.color = vec3( 0.0 );
+			light.visible = false;
+		}
+	}
+#endif
+#if NUM_RECT_AREA_LIGHTS > 0
+	struct RectAreaLight {
+		vec3 color;
+		vec3 position;
+		vec3 halfWidth;
+		vec3 halfHeight;
+	};
+	uniform sampler2D ltc_1;	uniform sampler2D ltc_2;
+	uniform RectAreaLight rectAreaLights[ NUM_RECT_AREA_LIGHTS ];
+#endif
+#if NUM_HEMI_LIGHTS > 0
+	struct HemisphereLight {
+		vec3 direction;
+		vec3 skyColor;
+		vec3 groundColor;
+	};
+	uniform HemisphereLight hemisphereLights[ NUM_HEMI_LIGHTS ];
+	vec3 getHemisphereLightIrradiance( const in HemisphereLight hemiLight, const in vec3 normal ) {
+		float dotNL = dot( normal, hemiLight.direction );
+		float hemiDiffuseWeight = 0.5 * dotNL + 0.5;
+		vec3 irradiance = mix( hemiLight.groundColor, hemiLight.skyColor, hemiDiffuseWeight );
+		return irradiance;
+	}
+#endif
+#include <lightprobes_pars_fragment>`,Fv=`#ifdef USE_ENVMAP
+	vec3 getIBLIrradiance( const in vec3 normal ) {
+		#ifdef ENVMAP_TYPE_PMREM
+			vec3 worldNormal = transformNormalByInverseViewMatrix( normal, viewMatrix );
+			vec4 envMapColor = textureLod( envMap, envMapRotation * worldNormal, ENVMAP_MAX_LOD );
+			return PI * envMapColor.rgb * envMapIntensity;
+		#else
+			return vec3( 0.0 );
+		#endif
+	}
+	vec3 getIBLRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness ) {
+		#ifdef ENVMAP_TYPE_PMREM
+			vec3 reflectVec = reflect( - viewDir, normal );
+			reflectVec = normalize( mix( reflectVec, normal, pow4( roughness ) ) );
+			reflectVec = transformDirectionByInverseViewMatrix( reflectVec, viewMatrix );
+			vec4 envMapColor = textureLod( envMap, envMapRotation * reflectVec, roughnessToMip( roughness ) );
+			return envMapColor.rgb * envMapIntensity;
+		#else
+			return vec3( 0.0 );
+		#endif
+	}
+	#ifdef USE_RETROREFLECTION
+		vec3 getIBLRetroRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness ) {
+			#ifdef ENVMAP_TYPE_PMREM
+				vec3 retroVec = normalize( mix( viewDir, normal, pow4( roughness ) ) );
+				retroVec = transformDirectionByInverseViewMatrix( retroVec, viewMatrix );
+				vec4 envMapColor = textureLod( envMap, envMapRotation * retroVec, roughnessToMip( roughness ) );
+				return envMapColor.rgb * envMapIntensity;
+			#else
+				return vec3( 0.0 );
+			#endif
+		}
+	#endif
+	#ifdef USE_ANISOTROPY
+		vec3 getIBLAnisotropyRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness, const in vec3 bitangent, const in float anisotropy ) {
+			#ifdef ENVMAP_TYPE_PMREM
+				vec3 bentNormal = cross( bitangent, viewDir );
+				bentNormal = normalize( cross( bentNormal, bitangent ) );
+				bentNormal = normalize( mix( bentNormal, normal, pow2( pow2( 1.0 - anisotropy * ( 1.0 - roughness ) ) ) ) );
+				return getIBLRadiance( viewDir, bentNormal, roughness );
+			#else
+				return vec3( 0.0 );
+			#endif
+		}
+		#ifdef USE_RETROREFLECTION
+			vec3 getIBLAnisotropyRetroRadiance( const in vec3 viewDir, const in vec3 normal, const in float roughness, const in vec3 bitangent, const in float anisotropy ) {
+				#ifdef ENVMAP_TYPE_PMREM
+					vec3 bentNormal = cross( bitangent, viewDir );
+					bentNormal = normalize( cross( bentNormal, bitangent ) );
+					bentNormal = normalize( mix( bentNormal, normal, pow2( pow2( 1.0 - anisotropy * ( 1.0 - roughness ) ) ) ) );
+					return getIBLRetroRadiance( viewDir, bentNormal, roughness );
+				#else
+					return vec3( 0.0 );
+				#endif
+			}
+		#endif
+	#endif
+#endif`,Nv=`ToonMaterial material;
+material.diffuseColor = diffuseColor.rgb;`,Uv=`varying vec3 vViewPosition;
+struct ToonMaterial {
+	vec3 diffuseColor;
+};
+void RE_Direct_Toon( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in ToonMaterial material, inout ReflectedLight reflectedLight ) {
+	vec3 irradiance = getGradientIrradiance( geometryNormal, directLight.direction ) * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+void RE_IndirectDiffuse_Toon( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in ToonMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_Toon
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Toon`,Ov=`BlinnPhongMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.specularColor = specular;
+material.specularShininess = shininess;
+material.specularStrength = specularStrength;`,Bv=`varying vec3 vViewPosition;
+struct BlinnPhongMaterial {
+	vec3 diffuseColor;
+	vec3 specularColor;
+	float specularShininess;
+	float specularStrength;
+};
+void RE_Direct_BlinnPhong( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in BlinnPhongMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	reflectedLight.directDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+	reflectedLight.directSpecular += irradiance * BRDF_BlinnPhong( directLight.direction, geometryViewDir, geometryNormal, material.specularColor, material.specularShininess ) * material.specularStrength;
+}
+void RE_IndirectDiffuse_BlinnPhong( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in BlinnPhongMaterial material, inout ReflectedLight reflectedLight ) {
+	reflectedLight.indirectDiffuse += irradiance * BRDF_Lambert( material.diffuseColor );
+}
+#define RE_Direct				RE_Direct_BlinnPhong
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_BlinnPhong`,kv=`PhysicalMaterial material;
+material.diffuseColor = diffuseColor.rgb;
+material.diffuseContribution = diffuseColor.rgb * ( 1.0 - metalnessFactor );
+material.metalness = metalnessFactor;
+vec3 dxy = max( abs( dFdx( nonPerturbedNormal ) ), abs( dFdy( nonPerturbedNormal ) ) );
+float geometryRoughness = max( max( dxy.x, dxy.y ), dxy.z );
+material.roughness = max( roughnessFactor, 0.045 );
+material.roughness += geometryRoughness;
+material.roughness = min( material.roughness, 1.0 );
+#ifdef USE_DIFFUSE_ROUGHNESS
+	float diffuseRoughnessFactor = diffuseRoughness;
+	#ifdef USE_DIFFUSE_ROUGHNESSMAP
+		diffuseRoughnessFactor *= texture2D( diffuseRoughnessMap, vDiffuseRoughnessMapUv ).r;
+	#endif
+	material.diffuseRoughness = saturate( diffuseRoughnessFactor );
+#endif
+#ifdef IOR
+	material.ior = ior;
+	#ifdef USE_SPECULAR
+		float specularIntensityFactor = specularIntensity;
+		vec3 specularColorFactor = specularColor;
+		#ifdef USE_SPECULAR_COLORMAP
+			specularColorFactor *= texture2D( specularColorMap, vSpecularColorMapUv ).rgb;
+		#endif
+		#ifdef USE_SPECULAR_INTENSITYMAP
+			specularIntensityFactor *= texture2D( specularIntensityMap, vSpecularIntensityMapUv ).a;
+		#endif
+		material.specularF90 = mix( specularIntensityFactor, 1.0, metalnessFactor );
+	#else
+		float specularIntensityFactor = 1.0;
+		vec3 specularColorFactor = vec3( 1.0 );
+		material.specularF90 = 1.0;
+	#endif
+	material.specularColor = min( pow2( ( material.ior - 1.0 ) / ( material.ior + 1.0 ) ) * specularColorFactor, vec3( 1.0 ) ) * specularIntensityFactor;
+	material.specularColorBlended = mix( material.specularColor, diffuseColor.rgb, metalnessFactor );
+#else
+	material.specularColor = vec3( 0.04 );
+	material.specularColorBlended = mix( material.specularColor, diffuseColor.rgb, metalnessFactor );
+	material.specularF90 = 1.0;
+#endif
+#ifdef USE_CLEARCOAT
+	material.clearcoat = clearcoat;
+	material.clearcoatRoughness = clearcoatRoughness;
+	material.clearcoatF0 = vec3( 0.04 );
+	material.clearcoatF90 = 1.0;
+	#ifdef USE_CLEARCOATMAP
+		material.clearcoat *= texture2D( clearcoatMap, vClearcoatMapUv ).x;
+	#endif
+	#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+		material.clearcoatRoughness *= texture2D( clearcoatRoughnessMap, vClearcoatRoughnessMapUv ).y;
+	#endif
+	material.clearcoat = saturate( material.clearcoat );	material.clearcoatRoughness = max( material.clearcoatRoughness, 0.045 );
+	material.clearcoatRoughness += geometryRoughness;
+	material.clearcoatRoughness = min( material.clearcoatRoughness, 1.0 );
+#endif
+#ifdef USE_DISPERSION
+	material.dispersion = dispersion;
+#endif
+#ifdef USE_RETROREFLECTION
+	material.retroreflectivity = retroreflectivity;
+#endif
+#ifdef USE_IRIDESCENCE
+	material.iridescence = iridescence;
+	material.iridescenceIOR = iridescenceIOR;
+	#ifdef USE_IRIDESCENCEMAP
+		material.iridescence *= texture2D( iridescenceMap, vIridescenceMapUv ).r;
+	#endif
+	#ifdef USE_IRIDESCENCE_THICKNESSMAP
+		material.iridescenceThickness = (iridescenceThicknessMaximum - iridescenceThicknessMinimum) * texture2D( iridescenceThicknessMap, vIridescenceThicknessMapUv ).g + iridescenceThicknessMinimum;
+	#else
+		material.iridescenceThickness = iridescenceThicknessMaximum;
+	#endif
+#endif
+#ifdef USE_SHEEN
+	material.sheenColor = sheenColor;
+	#ifdef USE_SHEEN_COLORMAP
+		material.sheenColor *= texture2D( sheenColorMap, vSheenColorMapUv ).rgb;
+	#endif
+	material.sheenRoughness = clamp( sheenRoughness, 0.0001, 1.0 );
+	#ifdef USE_SHEEN_ROUGHNESSMAP
+		material.sheenRoughness *= texture2D( sheenRoughnessMap, vSheenRoughnessMapUv ).a;
+	#endif
+#endif
+#ifdef USE_ANISOTROPY
+	#ifdef USE_ANISOTROPYMAP
+		mat2 anisotropyMat = mat2( anisotropyVector.x, anisotropyVector.y, - anisotropyVector.y, anisotropyVector.x );
+		vec3 anisotropyPolar = texture2D( anisotropyMap, vAnisotropyMapUv ).rgb;
+		vec2 anisotropyV = anisotropyMat * normalize( 2.0 * anisotropyPolar.rg - vec2( 1.0 ) ) * anisotropyPolar.b;
+	#else
+		vec2 anisotropyV = anisotropyVector;
+	#endif
+	material.anisotropy = length( anisotropyV );
+	if( material.anisotropy == 0.0 ) {
+		anisotropyV = vec2( 1.0, 0.0 );
+	} else {
+		anisotropyV /= material.anisotropy;
+		material.anisotropy = saturate( material.anisotropy );
+	}
+	material.alphaT = mix( pow2( material.roughness ), 1.0, pow2( material.anisotropy ) );
+	material.anisotropyT = tbn[ 0 ] * anisotropyV.x + tbn[ 1 ] * anisotropyV.y;
+	material.anisotropyB = tbn[ 1 ] * anisotropyV.x - tbn[ 0 ] * anisotropyV.y;
+#endif`,zv=`uniform sampler2D dfgLUT;
+struct PhysicalMaterial {
+	vec3 diffuseColor;
+	vec3 diffuseContribution;
+	vec3 specularColor;
+	vec3 specularColorBlended;
+	float roughness;
+	float metalness;
+	float specularF90;
+	float dispersion;
+	vec2 dfg;
+	vec3 multiScatteringCompensation;
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float diffuseRoughness;
+	#endif
+	#ifdef USE_RETROREFLECTION
+		float retroreflectivity;
+	#endif
+	#ifdef USE_CLEARCOAT
+		float clearcoat;
+		float clearcoatRoughness;
+		vec3 clearcoatF0;
+		float clearcoatF90;
+	#endif
+	#ifdef USE_IRIDESCENCE
+		float iridescence;
+		float iridescenceIOR;
+		float iridescenceThickness;
+		vec3 iridescenceFresnel;
+		vec3 iridescenceF0Dielectric;
+		vec3 iridescenceF0Metallic;
+	#endif
+	#ifdef USE_SHEEN
+		vec3 sheenColor;
+		float sheenRoughness;
+	#endif
+	#ifdef IOR
+		float ior;
+	#endif
+	#ifdef USE_TRANSMISSION
+		float transmission;
+		float transmissionAlpha;
+		float thickness;
+		float attenuationDistance;
+		vec3 attenuationColor;
+	#endif
+	#ifdef USE_ANISOTROPY
+		float anisotropy;
+		float alphaT;
+		vec3 anisotropyT;
+		vec3 anisotropyB;
+	#endif
+};
+vec3 clearcoatSpecularDirect = vec3( 0.0 );
+vec3 clearcoatSpecularIndirect = vec3( 0.0 );
+vec3 sheenSpecularDirect = vec3( 0.0 );
+vec3 sheenSpecularIndirect = vec3(0.0 );
+vec3 Schlick_to_F0( const in vec3 f, const in float f90, const in float dotVH ) {
+    float x = clamp( 1.0 - dotVH, 0.0, 1.0 );
+    float x2 = x * x;
+    float x5 = clamp( x * x2 * x2, 0.0, 0.9999 );
+    return ( f - vec3( f90 ) * x5 ) / ( 1.0 - x5 );
+}
+#ifdef USE_DIFFUSE_ROUGHNESS
+	const float EON_EPSILON = 1e-7;
+	float FON_DirectionalAlbedo( const in float mu, const in float roughness, const in float A ) {
+		float muComp = 1.0 - mu;
+		float gOverPi = muComp * ( 0.0571085289 + muComp * ( 0.491881867 + muComp * ( - 0.332181442 + muComp * 0.0714429953 ) ) );
+		return A * ( 1.0 + roughness * gOverPi );
+	}
+	vec3 BRDF_EON( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in vec3 diffuseColor, const in float roughness ) {
+		vec3 rho = saturate( diffuseColor );
+		if ( roughness <= EON_EPSILON ) return BRDF_Lambert( rho );
+		float dotNL = saturate( dot( normal, lightDir ) );
+		float dotNV = saturate( dot( normal, viewDir ) );
+		float s = dot( lightDir, viewDir ) - dotNL * dotNV;
+		float sOverT = ( s > 0.0 ) ? s / max( max( dotNL, dotNV ), EON_EPSILON ) : s;
+		float A = 1.0 / ( 1.0 + ( 0.5 - 2.0 / ( 3.0 * PI ) ) * roughness );
+		vec3 singleScatter = rho * RECIPROCAL_PI * A * ( 1.0 + roughness * sOverT );
+		float averageAlbedo = A * ( 1.0 + ( 2.0 / 3.0 - 28.0 / ( 15.0 * PI ) ) * roughness );
+		float albedoV = FON_DirectionalAlbedo( dotNV, roughness, A );
+		float albedoL = FON_DirectionalAlbedo( dotNL, roughness, A );
+		vec3 rhoMultiScatter = rho * rho * averageAlbedo / max( vec3( EON_EPSILON ), vec3( 1.0 ) - rho * ( 1.0 - averageAlbedo ) );
+		vec3 multiScatter = rhoMultiScatter * RECIPROCAL_PI
+			* max( EON_EPSILON, 1.0 - albedoV )
+			* max( EON_EPSILON, 1.0 - albedoL )
+			/ max( EON_EPSILON, 1.0 - averageAlbedo );
+		return singleScatter + multiScatter;
+	}
+	vec3 EON_DirectionalAlbedo( const in vec3 diffuseColor, const in float roughness, const in float dotNV ) {
+		vec3 rho = saturate( diffuseColor );
+		if ( roughness <= EON_EPSILON ) return rho;
+		float A = 1.0 / ( 1.0 + ( 0.5 - 2.0 / ( 3.0 * PI ) ) * roughness );
+		float directionalAlbedo = FON_DirectionalAlbedo( dotNV, roughness, A );
+		float averageAlbedo = A * ( 1.0 + ( 2.0 / 3.0 - 28.0 / ( 15.0 * PI ) ) * roughness );
+		vec3 rhoMultiScatter = rho * rho * averageAlbedo / max( vec3( EON_EPSILON ), vec3( 1.0 ) - rho * ( 1.0 - averageAlbedo ) );
+		return rho * directionalAlbedo + rhoMultiScatter * ( 1.0 - directionalAlbedo );
+	}
+#endif
+float V_GGX_SmithCorrelated( const in float alpha, const in float dotNL, const in float dotNV ) {
+	float a2 = pow2( alpha );
+	float gv = dotNL * sqrt( a2 + ( 1.0 - a2 ) * pow2( dotNV ) );
+	float gl = dotNV * sqrt( a2 + ( 1.0 - a2 ) * pow2( dotNL ) );
+	return 0.5 / max( gv + gl, EPSILON );
+}
+float D_GGX( const in float alpha, const in float dotNH ) {
+	float a2 = pow2( alpha );
+	float denom = pow2( dotNH ) * ( a2 - 1.0 ) + 1.0;
+	return RECIPROCAL_PI * a2 / pow2( denom );
+}
+#ifdef USE_ANISOTROPY
+	float V_GGX_SmithCorrelated_Anisotropic( const in float alphaT, const in float alphaB, const in float dotTV, const in float dotBV, const in float dotTL, const in float dotBL, const in float dotNV, const in float dotNL ) {
+		float gv = dotNL * length( vec3( alphaT * dotTV, alphaB * dotBV, dotNV ) );
+		float gl = dotNV * length( vec3( alphaT * dotTL, alphaB * dotBL, dotNL ) );
+		return 0.5 / max( gv + gl, EPSILON );
+	}
+	float D_GGX_Anisotropic( const in float alphaT, const in float alphaB, const in float dotNH, const in float dotTH, const in float dotBH ) {
+		float a2 = alphaT * alphaB;
+		highp vec3 v = vec3( alphaB * dotTH, alphaT * dotBH, a2 * dotNH );
+		highp float v2 = dot( v, v );
+		float w2 = a2 / v2;
+		return RECIPROCAL_PI * a2 * pow2 ( w2 );
+	}
+#endif
+#ifdef USE_CLEARCOAT
+	vec3 BRDF_GGX_Clearcoat( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in PhysicalMaterial material) {
+		vec3 f0 = material.clearcoatF0;
+		float f90 = material.clearcoatF90;
+		float roughness = max( material.clearcoatRoughness, 0.045 );
+		float alpha = pow2( roughness );
+		vec3 halfDir = normalize( lightDir + viewDir );
+		float dotNL = saturate( dot( normal, lightDir ) );
+		float dotNV = saturate( dot( normal, viewDir ) );
+		float dotNH = saturate( dot( normal, halfDir ) );
+		float dotVH = saturate( dot( viewDir, halfDir ) );
+		vec3 F = F_Schlick( f0, f90, dotVH );
+		float V = V_GGX_SmithCorrelated( alpha, dotNL, dotNV );
+		float D = D_GGX( alpha, dotNH );
+		return F * ( V * D );
+	}
+#endif
+vec3 BRDF_GGX( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, const in PhysicalMaterial material ) {
+	vec3 f0 = material.specularColorBlended;
+	float f90 = material.specularF90;
+	float roughness = max( material.roughness, 0.045 );
+	float alpha = pow2( roughness );
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNL = saturate( dot( normal, lightDir ) );
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float dotVH = saturate( dot( viewDir, halfDir ) );
+	vec3 F = F_Schlick( f0, f90, dotVH );
+	#ifdef USE_IRIDESCENCE
+		F = mix( F, material.iridescenceFresnel, material.iridescence );
+	#endif
+	#ifdef USE_ANISOTROPY
+		float dotTL = dot( material.anisotropyT, lightDir );
+		float dotTV = dot( material.anisotropyT, viewDir );
+		float dotTH = dot( material.anisotropyT, halfDir );
+		float dotBL = dot( material.anisotropyB, lightDir );
+		float dotBV = dot( material.anisotropyB, viewDir );
+		float dotBH = dot( material.anisotropyB, halfDir );
+		float alphaT = max( material.alphaT, alpha );
+		float V = V_GGX_SmithCorrelated_Anisotropic( alphaT, alpha, dotTV, dotBV, dotTL, dotBL, dotNV, dotNL );
+		float D = D_GGX_Anisotropic( alphaT, alpha, dotNH, dotTH, dotBH );
+	#else
+		float V = V_GGX_SmithCorrelated( alpha, dotNL, dotNV );
+		float D = D_GGX( alpha, dotNH );
+	#endif
+	return F * ( V * D );
+}
+vec2 LTC_Uv( const in vec3 N, const in vec3 V, const in float roughness ) {
+	const float LUT_SIZE = 64.0;
+	const float LUT_SCALE = ( LUT_SIZE - 1.0 ) / LUT_SIZE;
+	const float LUT_BIAS = 0.5 / LUT_SIZE;
+	float dotNV = saturate( dot( N, V ) );
+	vec2 uv = vec2( roughness, sqrt( 1.0 - dotNV ) );
+	uv = uv * LUT_SCALE + LUT_BIAS;
+	return uv;
+}
+float LTC_ClippedSphereFormFactor( const in vec3 f ) {
+	float l = length( f );
+	return max( ( l * l + f.z ) / ( l + 1.0 ), 0.0 );
+}
+vec3 LTC_EdgeVectorFormFactor( const in vec3 v1, const in vec3 v2 ) {
+	float x = dot( v1, v2 );
+	float y = abs( x );
+	float a = 0.8543985 + ( 0.4965155 + 0.0145206 * y ) * y;
+	float b = 3.4175940 + ( 4.1616724 + y ) * y;
+	float v = a / b;
+	float theta_sintheta = ( x > 0.0 ) ? v : 0.5 * inversesqrt( max( 1.0 - x * x, 1e-7 ) ) - v;
+	return cross( v1, v2 ) * theta_sintheta;
+}
+vec3 LTC_Evaluate( const in vec3 N, const in vec3 V, const in vec3 P, const in mat3 mInv, const in vec3 rectCoords[ 4 ] ) {
+	vec3 v1 = rectCoords[ 1 ] - rectCoords[ 0 ];
+	vec3 v2 = rectCoords[ 3 ] - rectCoords[ 0 ];
+	vec3 lightNormal = cross( v1, v2 );
+	if( dot( lightNormal, P - rectCoords[ 0 ] ) < 0.0 ) return vec3( 0.0 );
+	vec3 T1, T2;
+	T1 = normalize( V - N * dot( V, N ) );
+	T2 = - cross( N, T1 );
+	mat3 mat = mInv * transpose( mat3( T1, T2, N ) );
+	vec3 coords[ 4 ];
+	coords[ 0 ] = mat * ( rectCoords[ 0 ] - P );
+	coords[ 1 ] = mat * ( rectCoords[ 1 ] - P );
+	coords[ 2 ] = mat * ( rectCoords[ 2 ] - P );
+	coords[ 3 ] = mat * ( rectCoords[ 3 ] - P );
+	coords[ 0 ] = normalize( coords[ 0 ] );
+	coords[ 1 ] = normalize( coords[ 1 ] );
+	coords[ 2 ] = normalize( coords[ 2 ] );
+	coords[ 3 ] = normalize( coords[ 3 ] );
+	vec3 vectorFormFactor = vec3( 0.0 );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 0 ], coords[ 1 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 1 ], coords[ 2 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 2 ], coords[ 3 ] );
+	vectorFormFactor += LTC_EdgeVectorFormFactor( coords[ 3 ], coords[ 0 ] );
+	float result = LTC_ClippedSphereFormFactor( vectorFormFactor );
+	return vec3( result );
+}
+#if defined( USE_SHEEN )
+float D_Charlie( float roughness, float dotNH ) {
+	float alpha = pow2( roughness );
+	float invAlpha = 1.0 / alpha;
+	float cos2h = dotNH * dotNH;
+	float sin2h = max( 1.0 - cos2h, 0.0078125 );
+	return ( 2.0 + invAlpha ) * pow( sin2h, invAlpha * 0.5 ) / ( 2.0 * PI );
+}
+float V_Neubelt( float dotNV, float dotNL ) {
+	return saturate( 1.0 / ( 4.0 * ( dotNL + dotNV - dotNL * dotNV ) ) );
+}
+vec3 BRDF_Sheen( const in vec3 lightDir, const in vec3 viewDir, const in vec3 normal, vec3 sheenColor, const in float sheenRoughness ) {
+	vec3 halfDir = normalize( lightDir + viewDir );
+	float dotNL = saturate( dot( normal, lightDir ) );
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float dotNH = saturate( dot( normal, halfDir ) );
+	float D = D_Charlie( sheenRoughness, dotNH );
+	float V = V_Neubelt( dotNV, dotNL );
+	return sheenColor * ( D * V );
+}
+#endif
+float IBLSheenBRDF( const in vec3 normal, const in vec3 viewDir, const in float roughness ) {
+	float dotNV = saturate( dot( normal, viewDir ) );
+	float r2 = roughness * roughness;
+	float rInv = 1.0 / ( roughness + 0.1 );
+	float a = -1.9362 + 1.0678 * roughness + 0.4573 * r2 - 0.8469 * rInv;
+	float b = -0.6014 + 0.5538 * roughness - 0.4670 * r2 - 0.1255 * rInv;
+	float DG = exp( a * dotNV + b );
+	return saturate( DG );
+}
+vec3 EnvironmentBRDF( const in vec3 normal, const in vec3 viewDir, const in vec3 specularColor, const in float specularF90, const in float roughness ) {
+	float dotNV = saturate( dot( normal, viewDir ) );
+	vec2 fab = texture2D( dfgLUT, vec2( roughness, dotNV ) ).rg;
+	return specularColor * fab.x + specularF90 * fab.y;
+}
+#ifdef USE_IRIDESCENCE
+void computeMultiscatteringIridescence( const in vec2 fab, const in vec3 specularColor, const in float specularF90, const in float iridescence, const in vec3 iridescenceF0, inout vec3 singleScatter, inout vec3 multiScatter ) {
+#else
+void computeMultiscattering( const in vec2 fab, const in vec3 specularColor, const in float specularF90, inout vec3 singleScatter, inout vec3 multiScatter ) {
+#endif
+	#ifdef USE_IRIDESCENCE
+		vec3 Fr = mix( specularColor, iridescenceF0, iridescence );
+	#else
+		vec3 Fr = specularColor;
+	#endif
+	vec3 FssEss = Fr * fab.x + specularF90 * fab.y;
+	float Ess = fab.x + fab.y;
+	float Ems = 1.0 - Ess;
+	vec3 Favg = Fr + ( 1.0 - Fr ) * 0.047619;	vec3 Fms = FssEss * Favg / ( 1.0 - Ems * Favg );
+	singleScatter += FssEss;
+	multiScatter += Fms * Ems;
+}
+#if NUM_RECT_AREA_LIGHTS > 0
+	void RE_Direct_RectArea_Physical( const in RectAreaLight rectAreaLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+		vec3 normal = geometryNormal;
+		vec3 viewDir = geometryViewDir;
+		vec3 position = geometryPosition;
+		vec3 lightPos = rectAreaLight.position;
+		vec3 halfWidth = rectAreaLight.halfWidth;
+		vec3 halfHeight = rectAreaLight.halfHeight;
+		vec3 lightColor = rectAreaLight.color;
+		float roughness = material.roughness;
+		vec3 rectCoords[ 4 ];
+		rectCoords[ 0 ] = lightPos + halfWidth - halfHeight;		rectCoords[ 1 ] = lightPos - halfWidth - halfHeight;
+		rectCoords[ 2 ] = lightPos - halfWidth + halfHeight;
+		rectCoords[ 3 ] = lightPos + halfWidth + halfHeight;
+		vec2 uv = LTC_Uv( normal, viewDir, roughness );
+		vec4 t1 = texture2D( ltc_1, uv );
+		vec4 t2 = texture2D( ltc_2, uv );
+		mat3 mInv = mat3(
+			vec3( t1.x, 0, t1.y ),
+			vec3(    0, 1,    0 ),
+			vec3( t1.z, 0, t1.w )
+		);
+		vec3 fresnel = ( material.specularColorBlended * t2.x + ( material.specularF90 - material.specularColorBlended ) * t2.y );
+		reflectedLight.directSpecular += lightColor * fresnel * LTC_Evaluate( normal, viewDir, position, mInv, rectCoords );
+		reflectedLight.directDiffuse += lightColor * material.diffuseContribution * LTC_Evaluate( normal, viewDir, position, mat3( 1.0 ), rectCoords );
+		#ifdef USE_CLEARCOAT
+			vec3 Ncc = geometryClearcoatNormal;
+			vec2 uvClearcoat = LTC_Uv( Ncc, viewDir, material.clearcoatRoughness );
+			vec4 t1Clearcoat = texture2D( ltc_1, uvClearcoat );
+			vec4 t2Clearcoat = texture2D( ltc_2, uvClearcoat );
+			mat3 mInvClearcoat = mat3(
+				vec3( t1Clearcoat.x, 0, t1Clearcoat.y ),
+				vec3(             0, 1,             0 ),
+				vec3( t1Clearcoat.z, 0, t1Clearcoat.w )
+			);
+			vec3 fresnelClearcoat = material.clearcoatF0 * t2Clearcoat.x + ( material.clearcoatF90 - material.clearcoatF0 ) * t2Clearcoat.y;
+			clearcoatSpecularDirect += lightColor * fresnelClearcoat * LTC_Evaluate( Ncc, viewDir, position, mInvClearcoat, rectCoords );
+		#endif
+	}
+#endif
+void RE_Direct_Physical( const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+	float dotNL = saturate( dot( geometryNormal, directLight.direction ) );
+	vec3 irradiance = dotNL * directLight.color;
+	#ifdef USE_CLEARCOAT
+		float dotNLcc = saturate( dot( geometryClearcoatNormal, directLight.direction ) );
+		vec3 ccIrradiance = dotNLcc * directLight.color;
+		clearcoatSpecularDirect += ccIrradiance * BRDF_GGX_Clearcoat( directLight.direction, geometryViewDir, geometryClearcoatNormal, material );
+	#endif
+	#ifdef USE_SHEEN
+ 
+ 		sheenSpecularDirect += irradiance * BRDF_Sheen( directLight.direction, geometryViewDir, geometryNormal, material.sheenColor, material.sheenRoughness );
+ 
+ 		float sheenAlbedoV = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+ 		float sheenAlbedoL = IBLSheenBRDF( geometryNormal, directLight.direction, material.sheenRoughness );
+ 
+ 		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * max( sheenAlbedoV, sheenAlbedoL );
+ 
+ 		irradiance *= sheenEnergyComp;
+ 
+ 	#endif
+	vec3 specularBRDF = BRDF_GGX( directLight.direction, geometryViewDir, geometryNormal, material );
+	#ifdef USE_RETROREFLECTION
+		vec3 retroViewDir = reflect( - geometryViewDir, geometryNormal );
+		vec3 retroSpecularBRDF = BRDF_GGX( directLight.direction, retroViewDir, geometryNormal, material );
+		specularBRDF = mix( specularBRDF, retroSpecularBRDF, saturate( material.retroreflectivity ) );
+	#endif
+	reflectedLight.directSpecular += irradiance * specularBRDF * material.multiScatteringCompensation;
+	vec3 halfDir = normalize( directLight.direction + geometryViewDir );
+	float dotVH = saturate( dot( geometryViewDir, halfDir ) );
+	vec3 F = F_Schlick( material.specularColor, material.specularF90, dotVH );
+	#ifdef USE_RETROREFLECTION
+		vec3 retroHalfDir = normalize( directLight.direction + retroViewDir );
+		float dotRetroVH = saturate( dot( retroViewDir, retroHalfDir ) );
+		vec3 retroF = F_Schlick( material.specularColor, material.specularF90, dotRetroVH );
+		F = mix( F, retroF, saturate( material.retroreflectivity ) );
+	#endif
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		vec3 diffuseBRDF = BRDF_EON( directLight.direction, geometryViewDir, geometryNormal, material.diffuseColor, material.diffuseRoughness ) * ( 1.0 - material.metalness );
+	#else
+		vec3 diffuseBRDF = BRDF_Lambert( material.diffuseContribution );
+	#endif
+	reflectedLight.directDiffuse += irradiance * diffuseBRDF * ( 1.0 - F );
+}
+void RE_IndirectDiffuse_Physical( const in vec3 irradiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight ) {
+	vec3 singleScattering = vec3( 0.0 );
+	vec3 multiScattering = vec3( 0.0 );
+	#ifdef USE_IRIDESCENCE
+		computeMultiscatteringIridescence( material.dfg, material.specularColor, material.specularF90, material.iridescence, material.iridescenceF0Dielectric, singleScattering, multiScattering );
+	#else
+		computeMultiscattering( material.dfg, material.specularColor, material.specularF90, singleScattering, multiScattering );
+	#endif
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		vec3 diffuseAlbedo = EON_DirectionalAlbedo( material.diffuseColor, material.diffuseRoughness, dotNV ) * ( 1.0 - material.metalness );
+		vec3 diffuse = irradiance * RECIPROCAL_PI * diffuseAlbedo * ( 1.0 - singleScattering - multiScattering );
+	#else
+		vec3 diffuse = irradiance * BRDF_Lambert( material.diffuseContribution ) * ( 1.0 - singleScattering - multiScattering );
+	#endif
+	#ifdef USE_SHEEN
+		float sheenAlbedo = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+		sheenSpecularIndirect += irradiance * material.sheenColor * sheenAlbedo * RECIPROCAL_PI;
+		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * sheenAlbedo;
+		diffuse *= sheenEnergyComp;
+	#endif
+	reflectedLight.indirectDiffuse += diffuse;
+}
+void RE_IndirectSpecular_Physical( const in vec3 radiance, const in vec3 irradiance, const in vec3 clearcoatRadiance, const in vec3 geometryPosition, const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material, inout ReflectedLight reflectedLight) {
+	#ifdef USE_CLEARCOAT
+		clearcoatSpecularIndirect += clearcoatRadiance * EnvironmentBRDF( geometryClearcoatNormal, geometryViewDir, material.clearcoatF0, material.clearcoatF90, material.clearcoatRoughness );
+	#endif
+	#ifdef USE_SHEEN
+		sheenSpecularIndirect += irradiance * material.sheenColor * IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness ) * RECIPROCAL_PI;
+ 	#endif
+	vec3 singleScatteringDielectric = vec3( 0.0 );
+	vec3 multiScatteringDielectric = vec3( 0.0 );
+	vec3 singleScatteringMetallic = vec3( 0.0 );
+	vec3 multiScatteringMetallic = vec3( 0.0 );
+	#ifdef USE_IRIDESCENCE
+		computeMultiscatteringIridescence( material.dfg, material.specularColor, material.specularF90, material.iridescence, material.iridescenceF0Dielectric, singleScatteringDielectric, multiScatteringDielectric );
+		computeMultiscatteringIridescence( material.dfg, material.diffuseColor, material.specularF90, material.iridescence, material.iridescenceF0Metallic, singleScatteringMetallic, multiScatteringMetallic );
+	#else
+		computeMultiscattering( material.dfg, material.specularColor, material.specularF90, singleScatteringDielectric, multiScatteringDielectric );
+		computeMultiscattering( material.dfg, material.diffuseColor, material.specularF90, singleScatteringMetallic, multiScatteringMetallic );
+	#endif
+	vec3 singleScattering = mix( singleScatteringDielectric, singleScatteringMetallic, material.metalness );
+	vec3 multiScattering = mix( multiScatteringDielectric, multiScatteringMetallic, material.metalness );
+	vec3 totalScatteringDielectric = singleScatteringDielectric + multiScatteringDielectric;
+	#ifdef USE_DIFFUSE_ROUGHNESS
+		float dotNV = saturate( dot( geometryNormal, geometryViewDir ) );
+		vec3 diffuse = EON_DirectionalAlbedo( material.diffuseColor, material.diffuseRoughness, dotNV ) * ( 1.0 - material.metalness ) * ( 1.0 - totalScatteringDielectric );
+	#else
+		vec3 diffuse = material.diffuseContribution * ( 1.0 - totalScatteringDielectric );
+	#endif
+	vec3 cosineWeightedIrradiance = irradiance * RECIPROCAL_PI;
+	vec3 indirectSpecular = radiance * singleScattering;
+	indirectSpecular += multiScattering * cosineWeightedIrradiance;
+	vec3 indirectDiffuse = diffuse * cosineWeightedIrradiance;
+	#ifdef USE_SHEEN
+		float sheenAlbedo = IBLSheenBRDF( geometryNormal, geometryViewDir, material.sheenRoughness );
+		float sheenEnergyComp = 1.0 - max3( material.sheenColor ) * sheenAlbedo;
+		indirectSpecular *= sheenEnergyComp;
+		indirectDiffuse *= sheenEnergyComp;
+	#endif
+	reflectedLight.indirectSpecular += indirectSpecular;
+	reflectedLight.indirectDiffuse += indirectDiffuse;
+}
+#define RE_Direct				RE_Direct_Physical
+#define RE_Direct_RectArea		RE_Direct_RectArea_Physical
+#define RE_IndirectDiffuse		RE_IndirectDiffuse_Physical
+#define RE_IndirectSpecular		RE_IndirectSpecular_Physical
+float computeSpecularOcclusion( const in float dotNV, const in float ambientOcclusion, const in float roughness ) {
+	return saturate( pow( dotNV + ambientOcclusion, exp2( - 16.0 * roughness - 1.0 ) ) - 1.0 + ambientOcclusion );
+}`,Gv=`
+vec3 geometryPosition = - vViewPosition;
+vec3 geometryNormal = normal;
+vec3 geometryViewDir = ( isOrthographic ) ? vec3( 0, 0, 1 ) : normalize( vViewPosition );
+vec3 geometryClearcoatNormal = vec3( 0.0 );
+#ifdef USE_CLEARCOAT
+	geometryClearcoatNormal = clearcoatNormal;
+#endif
+#ifdef USE_IRIDESCENCE
+	float dotNVi = saturate( dot( normal, geometryViewDir ) );
+	if ( material.iridescenceThickness == 0.0 ) {
+		material.iridescence = 0.0;
+	} else {
+		material.iridescence = saturate( material.iridescence );
+	}
+	if ( material.iridescence > 0.0 ) {
+		vec3 iridescenceFresnelDielectric = evalIridescence( 1.0, material.iridescenceIOR, dotNVi, material.iridescenceThickness, material.specularColor );
+		vec3 iridescenceFresnelMetallic = evalIridescence( 1.0, material.iridescenceIOR, dotNVi, material.iridescenceThickness, material.diffuseColor );
+		material.iridescenceFresnel = mix( iridescenceFresnelDielectric, iridescenceFresnelMetallic, material.metalness );
+		material.iridescenceF0Dielectric = Schlick_to_F0( iridescenceFresnelDielectric, 1.0, dotNVi );
+		material.iridescenceF0Metallic = Schlick_to_F0( iridescenceFresnelMetallic, 1.0, dotNVi );
+	}
+#endif
+#ifdef STANDARD
+	float dotNVms = saturate( dot( geometryNormal, geometryViewDir ) );
+	material.dfg = texture2D( dfgLUT, vec2( material.roughness, dotNVms ) ).rg;
+	#if ( NUM_SUN_LIGHTS > 0 || NUM_DIR_LIGHTS > 0 || NUM_POINT_LIGHTS > 0 || NUM_SPOT_LIGHTS > 0 )
+		float EssMs = material.dfg.x + material.dfg.y;
+		material.multiScatteringCompensation = 1.0 + material.specularColorBlended * ( 1.0 / EssMs - 1.0 );
+	#endif
+#endif
+IncidentLight directLight;
+#if ( NUM_POINT_LIGHTS > 0 ) && defined( RE_Direct )
+	PointLight pointLight;
+	#if defined( USE_SHADOWMAP ) && NUM_POINT_LIGHT_SHADOWS > 0
+	PointLightShadow pointLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_POINT_LIGHTS; i ++ ) {
+		pointLight = pointLights[ i ];
+		getPointLightInfo( pointLight, geometryPosition, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_POINT_LIGHT_SHADOWS ) && ( defined( SHADOWMAP_TYPE_PCF ) || defined( SHADOWMAP_TYPE_BASIC ) )
+		pointLightShadow = pointLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getPointShadow( pointShadowMap[ i ], pointLightShadow.shadowMapSize, pointLightShadow.shadowIntensity, pointLightShadow.shadowBias, pointLightShadow.shadowRadius, vPointShadowCoord[ i ], pointLightShadow.shadowCameraNear, pointLightShadow.shadowCameraFar ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_SPOT_LIGHTS > 0 ) && defined( RE_Direct )
+	SpotLight spotLight;
+	vec4 spotColor;
+	vec3 spotLightCoord;
+	bool inSpotLightMap;
+	#if defined( USE_SHADOWMAP ) && NUM_SPOT_LIGHT_SHADOWS > 0
+	SpotLightShadow spotLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHTS; i ++ ) {
+		spotLight = spotLights[ i ];
+		getSpotLightInfo( spotLight, geometryPosition, directLight );
+		#if ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS )
+		#define SPOT_LIGHT_MAP_INDEX UNROLLED_LOOP_INDEX
+		#elif ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+		#define SPOT_LIGHT_MAP_INDEX NUM_SPOT_LIGHT_MAPS
+		#else
+		#define SPOT_LIGHT_MAP_INDEX ( UNROLLED_LOOP_INDEX - NUM_SPOT_LIGHT_SHADOWS + NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS )
+		#endif
+		#if ( SPOT_LIGHT_MAP_INDEX < NUM_SPOT_LIGHT_MAPS )
+			spotLightCoord = vSpotLightCoord[ i ].xyz / vSpotLightCoord[ i ].w;
+			inSpotLightMap = all( lessThan( abs( spotLightCoord * 2. - 1. ), vec3( 1.0 ) ) );
+			spotColor = texture2D( spotLightMap[ SPOT_LIGHT_MAP_INDEX ], spotLightCoord.xy );
+			directLight.color = inSpotLightMap ? directLight.color * spotColor.rgb : directLight.color;
+		#endif
+		#undef SPOT_LIGHT_MAP_INDEX
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+		spotLightShadow = spotLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getShadow( spotShadowMap[ i ], spotLightShadow.shadowMapSize, spotLightShadow.shadowIntensity, spotLightShadow.shadowBias, spotLightShadow.shadowRadius, vSpotLightCoord[ i ] ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_SUN_LIGHTS > 0 ) && defined( RE_Direct )
+	SunLight sunLight;
+	#if defined( USE_SHADOWMAP ) && NUM_SUN_LIGHT_SHADOWS > 0
+	SunLightShadow sunLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SUN_LIGHTS; i ++ ) {
+		sunLight = sunLights[ i ];
+		getSunLightInfo( sunLight, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_SUN_LIGHT_SHADOWS )
+		sunLightShadow = sunLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getSunShadow( sunShadowMap[ i ], sunLightShadow, UNROLLED_LOOP_INDEX ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_DIR_LIGHTS > 0 ) && defined( RE_Direct )
+	DirectionalLight directionalLight;
+	#if defined( USE_SHADOWMAP ) && NUM_DIR_LIGHT_SHADOWS > 0
+	DirectionalLightShadow directionalLightShadow;
+	#endif
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_DIR_LIGHTS; i ++ ) {
+		directionalLight = directionalLights[ i ];
+		getDirectionalLightInfo( directionalLight, directLight );
+		#if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS )
+		directionalLightShadow = directionalLightShadows[ i ];
+		directLight.color *= ( directLight.visible && receiveShadow ) ? getShadow( directionalShadowMap[ i ], directionalLightShadow.shadowMapSize, directionalLightShadow.shadowIntensity, directionalLightShadow.shadowBias, directionalLightShadow.shadowRadius, vDirectionalShadowCoord[ i ] ) : 1.0;
+		#endif
+		RE_Direct( directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if ( NUM_RECT_AREA_LIGHTS > 0 ) && defined( RE_Direct_RectArea )
+	RectAreaLight rectAreaLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_RECT_AREA_LIGHTS; i ++ ) {
+		rectAreaLight = rectAreaLights[ i ];
+		RE_Direct_RectArea( rectAreaLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+	}
+	#pragma unroll_loop_end
+#endif
+#if defined( RE_IndirectDiffuse )
+	vec3 iblIrradiance = vec3( 0.0 );
+	vec3 irradiance = getAmbientLightIrradiance( ambientLightColor );
+	#if defined( USE_LIGHT_PROBES )
+		irradiance += getLightProbeIrradiance( lightProbe, geometryNormal );
+	#endif
+	#if ( NUM_HEMI_LIGHTS > 0 )
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_HEMI_LIGHTS; i ++ ) {
+			irradiance += getHemisphereLightIrradiance( hemisphereLights[ i ], geometryNormal );
+		}
+		#pragma unroll_loop_end
+	#endif
+	#if NUM_LIGHT_PROBE_GRIDS > 0
+		vec3 probeWorldPos = ( ( vec4( geometryPosition, 1.0 ) - viewMatrix[ 3 ] ) * viewMatrix ).xyz;
+		vec3 probeWorldNormal = transformNormalByInverseViewMatrix( geometryNormal, viewMatrix );
+		int probeGrid = - 1;
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_LIGHT_PROBE_GRIDS; i ++ ) {
+			if ( isInsideLightProbeGrid( probeWorldPos, probeWorldNormal, probesMin[ i ], probesMax[ i ], probesResolution[ i ] ) ) probeGrid = UNROLLED_LOOP_INDEX;
+		}
+		#pragma unroll_loop_end
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_LIGHT_PROBE_GRIDS; i ++ ) {
+			if ( probeGrid == UNROLLED_LOOP_INDEX ) irradiance += getLightProbeGridIrradiance( probesSH[ i ], probesMin[ i ], probesMax[ i ], probesResolution[ i ], probeWorldPos, probeWorldNormal );
+		}
+		#pragma unroll_loop_end
+	#endif
+#endif
+#if defined( RE_IndirectSpecular )
+	vec3 radiance = vec3( 0.0 );
+	vec3 clearcoatRadiance = vec3( 0.0 );
+#endif`,Vv=`#if defined( RE_IndirectDiffuse )
+	#ifdef USE_LIGHTMAP
+		vec4 lightMapTexel = texture2D( lightMap, vLightMapUv );
+		vec3 lightMapIrradiance = lightMapTexel.rgb * lightMapIntensity;
+		irradiance += lightMapIrradiance;
+	#endif
+	#if defined( USE_ENVMAP ) && defined( ENVMAP_TYPE_PMREM )
+		#if defined( STANDARD ) || defined( LAMBERT ) || defined( PHONG )
+			iblIrradiance += getIBLIrradiance( geometryNormal );
+		#endif
+	#endif
+#endif
+#if defined( USE_ENVMAP ) && defined( RE_IndirectSpecular )
+	#ifdef USE_ANISOTROPY
+		vec3 iblRadiance = getIBLAnisotropyRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy );
+	#else
+		vec3 iblRadiance = getIBLRadiance( geometryViewDir, geometryNormal, material.roughness );
+	#endif
+	#ifdef USE_RETROREFLECTION
+		#ifdef USE_ANISOTROPY
+			vec3 retroIBLRadiance = getIBLAnisotropyRetroRadiance( geometryViewDir, geometryNormal, material.roughness, material.anisotropyB, material.anisotropy );
+		#else
+			vec3 retroIBLRadiance = getIBLRetroRadiance( geometryViewDir, geometryNormal, material.roughness );
+		#endif
+		iblRadiance = mix( iblRadiance, retroIBLRadiance, saturate( material.retroreflectivity ) );
+	#endif
+	radiance += iblRadiance;
+	#ifdef USE_CLEARCOAT
+		clearcoatRadiance += getIBLRadiance( geometryViewDir, geometryClearcoatNormal, material.clearcoatRoughness );
+	#endif
+#endif`,Hv=`#if defined( RE_IndirectDiffuse )
+	#if defined( LAMBERT ) || defined( PHONG )
+		irradiance += iblIrradiance;
+	#endif
+	RE_IndirectDiffuse( irradiance, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+#endif
+#if defined( RE_IndirectSpecular )
+	RE_IndirectSpecular( radiance, iblIrradiance, clearcoatRadiance, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material, reflectedLight );
+#endif`,Wv=`#if NUM_LIGHT_PROBE_GRIDS > 0
+uniform highp sampler3D probesSH[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesMin[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesMax[ NUM_LIGHT_PROBE_GRIDS ];
+uniform vec3 probesResolution[ NUM_LIGHT_PROBE_GRIDS ];
+bool isInsideLightProbeGrid( vec3 worldPos, vec3 worldNormal, vec3 probesMin, vec3 probesMax, vec3 probesResolution ) {
+	vec3 spacing = ( probesMax - probesMin ) / probesResolution;
+	vec3 samplePos = worldPos + worldNormal * spacing * 0.5;
+	vec3 margin = spacing * 0.01;
+	return all( greaterThanEqual( samplePos, probesMin - margin ) ) && all( lessThanEqual( samplePos, probesMax + margin ) );
+}
+vec3 getLightProbeGridIrradiance( highp sampler3D probesSH, vec3 probesMin, vec3 probesMax, vec3 probesResolution, vec3 worldPos, vec3 worldNormal ) {
+	vec3 res = probesResolution;
+	vec3 gridRange = probesMax - probesMin;
+	vec3 probeSpacing = gridRange / res;
+	vec3 samplePos = worldPos + worldNormal * probeSpacing * 0.5;
+	vec3 uvw = clamp( ( samplePos - probesMin ) / gridRange, 0.5 / res, 1.0 - 0.5 / res );
+	float nz          = res.z;
+	float paddedSlices = nz + 2.0;
+	float atlasDepth  = 7.0 * paddedSlices;
+	float uvZBase     = uvw.z * nz + 1.0;
+	vec4 s0 = texture( probesSH, vec3( uvw.xy, ( uvZBase                       ) / atlasDepth ) );
+	vec4 s1 = texture( probesSH, vec3( uvw.xy, ( uvZBase +       paddedSlices   ) / atlasDepth ) );
+	vec4 s2 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 2.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s3 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 3.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s4 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 4.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s5 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 5.0 * paddedSlices   ) / atlasDepth ) );
+	vec4 s6 = texture( probesSH, vec3( uvw.xy, ( uvZBase + 6.0 * paddedSlices   ) / atlasDepth ) );
+	vec3 c0 = s0.xyz;
+	vec3 c1 = vec3( s0.w, s1.xy );
+	vec3 c2 = vec3( s1.zw, s2.x );
+	vec3 c3 = s2.yzw;
+	vec3 c4 = s3.xyz;
+	vec3 c5 = vec3( s3.w, s4.xy );
+	vec3 c6 = vec3( s4.zw, s5.x );
+	vec3 c7 = s5.yzw;
+	vec3 c8 = s6.xyz;
+	float x = worldNormal.x, y = worldNormal.y, z = worldNormal.z;
+	vec3 result = c0 * 0.886227;
+	result += c1 * 2.0 * 0.511664 * y;
+	result += c2 * 2.0 * 0.511664 * z;
+	result += c3 * 2.0 * 0.511664 * x;
+	result += c4 * 2.0 * 0.429043 * x * y;
+	result += c5 * 2.0 * 0.429043 * y * z;
+	result += c6 * ( 0.743125 * z * z - 0.247708 );
+	result += c7 * 2.0 * 0.429043 * x * z;
+	result += c8 * 0.429043 * ( x * x - y * y );
+	return max( result, vec3( 0.0 ) );
+}
+#endif`,Xv=`#if defined( USE_LOGARITHMIC_DEPTH_BUFFER )
+	gl_FragDepth = vIsPerspective == 0.0 ? gl_FragCoord.z : log2( vFragDepth ) * logDepthBufFC * 0.5;
+#endif`,$v=`#if defined( USE_LOGARITHMIC_DEPTH_BUFFER )
+	uniform float logDepthBufFC;
+	varying float vFragDepth;
+	varying float vIsPerspective;
+#endif`,qv=`#ifdef USE_LOGARITHMIC_DEPTH_BUFFER
+	varying float vFragDepth;
+	varying float vIsPerspective;
+#endif`,Yv=`#ifdef USE_LOGARITHMIC_DEPTH_BUFFER
+	vFragDepth = 1.0 + gl_Position.w;
+	vIsPerspective = float( isPerspectiveMatrix( projectionMatrix ) );
+#endif`,jv=`#ifdef USE_MAP
+	vec4 sampledDiffuseColor = texture2D( map, vMapUv );
+	#ifdef DECODE_VIDEO_TEXTURE
+		sampledDiffuseColor = sRGBTransferEOTF( sampledDiffuseColor );
+	#endif
+	diffuseColor *= sampledDiffuseColor;
+#endif`,Jv=`#ifdef USE_MAP
+	uniform sampler2D map;
+#endif`,Zv=`#if defined( USE_MAP ) || defined( USE_ALPHAMAP )
+	#if defined( USE_POINTS_UV )
+		vec2 uv = vUv;
+	#else
+		vec2 uv = ( uvTransform * vec3( gl_PointCoord.x, 1.0 - gl_PointCoord.y, 1 ) ).xy;
+	#endif
+#endif
+#ifdef USE_MAP
+	diffuseColor *= texture2D( map, uv );
+#endif
+#ifdef USE_ALPHAMAP
+	diffuseColor.a *= texture2D( alphaMap, uv ).g;
+#endif`,Kv=`#if defined( USE_POINTS_UV )
+	varying vec2 vUv;
+#else
+	#if defined( USE_MAP ) || defined( USE_ALPHAMAP )
+		uniform mat3 uvTransform;
+	#endif
+#endif
+#ifdef USE_MAP
+	uniform sampler2D map;
+#endif
+#ifdef USE_ALPHAMAP
+	uniform sampler2D alphaMap;
+#endif`,Qv=`float metalnessFactor = metalness;
+#ifdef USE_METALNESSMAP
+	vec4 texelMetalness = texture2D( metalnessMap, vMetalnessMapUv );
+	metalnessFactor *= texelMetalness.b;
+#endif`,ey=`#ifdef USE_METALNESSMAP
+	uniform sampler2D metalnessMap;
+#endif`,ty=`#ifdef USE_INSTANCING_MORPH
+	float morphTargetInfluences[ MORPHTARGETS_COUNT ];
+	float morphTargetBaseInfluence = texelFetch( morphTexture, ivec2( 0, gl_InstanceID ), 0 ).r;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		morphTargetInfluences[i] =  texelFetch( morphTexture, ivec2( i + 1, gl_InstanceID ), 0 ).r;
+	}
+#endif`,ny=`#if defined( USE_MORPHCOLORS )
+	#if defined( USE_COLOR_ALPHA )
+		vColor *= morphTargetBaseInfluence;
+	#elif defined( USE_COLOR )
+		vColor.rgb *= morphTargetBaseInfluence;
+	#endif
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		#if defined( USE_COLOR_ALPHA )
+			if ( morphTargetInfluences[ i ] != 0.0 ) vColor += getMorph( gl_VertexID, i, 2 ) * morphTargetInfluences[ i ];
+		#elif defined( USE_COLOR )
+			if ( morphTargetInfluences[ i ] != 0.0 ) vColor.rgb += getMorph( gl_VertexID, i, 2 ).rgb * morphTargetInfluences[ i ];
+		#endif
+	}
+#endif`,iy=`#ifdef USE_MORPHNORMALS
+	objectNormal *= morphTargetBaseInfluence;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		if ( morphTargetInfluences[ i ] != 0.0 ) objectNormal += getMorph( gl_VertexID, i, 1 ).xyz * morphTargetInfluences[ i ];
+	}
+#endif`,ry=`#ifdef USE_MORPHTARGETS
+	#ifndef USE_INSTANCING_MORPH
+		uniform float morphTargetBaseInfluence;
+		uniform float morphTargetInfluences[ MORPHTARGETS_COUNT ];
+	#endif
+	uniform sampler2DArray morphTargetsTexture;
+	uniform ivec2 morphTargetsTextureSize;
+	vec4 getMorph( const in int vertexIndex, const in int morphTargetIndex, const in int offset ) {
+		int texelIndex = vertexIndex * MORPHTARGETS_TEXTURE_STRIDE + offset;
+		int y = texelIndex / morphTargetsTextureSize.x;
+		int x = texelIndex - y * morphTargetsTextureSize.x;
+		ivec3 morphUV = ivec3( x, y, morphTargetIndex );
+		return texelFetch( morphTargetsTexture, morphUV, 0 );
+	}
+#endif`,sy=`#ifdef USE_MORPHTARGETS
+	transformed *= morphTargetBaseInfluence;
+	for ( int i = 0; i < MORPHTARGETS_COUNT; i ++ ) {
+		if ( morphTargetInfluences[ i ] != 0.0 ) transformed += getMorph( gl_VertexID, i, 0 ).xyz * morphTargetInfluences[ i ];
+	}
+#endif`,ay=`float faceDirection = gl_FrontFacing ? 1.0 : - 1.0;
+#ifdef FLAT_SHADED
+	vec3 fdx = dFdx( vViewPosition );
+	vec3 fdy = dFdy( vViewPosition );
+	vec3 normal = normalize( cross( fdx, fdy ) );
+#else
+	vec3 normal = normalize( vNormal );
+	#ifdef DOUBLE_SIDED
+		normal *= faceDirection;
+	#endif
+#endif
+#if defined( USE_NORMALMAP_TANGENTSPACE ) || defined( USE_CLEARCOAT_NORMALMAP ) || defined( USE_ANISOTROPY )
+	#ifdef USE_TANGENT
+		mat3 tbn = mat3( normalize( vTangent ), normalize( vBitangent ), normal );
+	#else
+		mat3 tbn = getTangentFrame( - vViewPosition, normal,
+		#if defined( USE_NORMALMAP )
+			vNormalMapUv
+		#elif defined( USE_CLEARCOAT_NORMALMAP )
+			vClearcoatNormalMapUv
+		#else
+			vUv
+		#endif
+		);
+	#endif
+	#ifdef DOUBLE_SIDED
+		tbn[0] *= faceDirection;
+		tbn[1] *= faceDirection;
+	#endif
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	#ifdef USE_TANGENT
+		mat3 tbn2 = mat3( normalize( vTangent ), normalize( vBitangent ), normal );
+	#else
+		mat3 tbn2 = getTangentFrame( - vViewPosition, normal, vClearcoatNormalMapUv );
+	#endif
+	#ifdef DOUBLE_SIDED
+		tbn2[0] *= faceDirection;
+		tbn2[1] *= faceDirection;
+	#endif
+#endif
+vec3 nonPerturbedNormal = normal;`,oy=`#ifdef USE_NORMALMAP_OBJECTSPACE
+	normal = texture2D( normalMap, vNormalMapUv ).xyz * 2.0 - 1.0;
+	#ifdef FLIP_SIDED
+		normal = - normal;
+	#endif
+	#ifdef DOUBLE_SIDED
+		normal = normal * faceDirection;
+	#endif
+	normal = normalize( normalMatrix * normal );
+#elif defined( USE_NORMALMAP_TANGENTSPACE )
+	vec3 mapN = texture2D( normalMap, vNormalMapUv ).xyz * 2.0 - 1.0;
+	#if defined( USE_PACKED_NORMALMAP )
+		mapN = vec3( mapN.xy, sqrt( saturate( 1.0 - dot( mapN.xy, mapN.xy ) ) ) );
+	#endif
+	mapN.xy *= normalScale;
+	normal = normalize( tbn * mapN );
+#elif defined( USE_BUMPMAP )
+	normal = perturbNormalArb( - vViewPosition, normal, dHdxy_fwd(), faceDirection );
+#endif`,ly=`#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+	#ifdef USE_TANGENT
+		varying vec3 vTangent;
+		varying vec3 vBitangent;
+	#endif
+#endif`,cy=`#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+	#ifdef USE_TANGENT
+		varying vec3 vTangent;
+		varying vec3 vBitangent;
+	#endif
+#endif`,hy=`#ifndef FLAT_SHADED
+	vNormal = normalize( transformedNormal );
+	#ifdef USE_TANGENT
+		vTangent = normalize( transformedTangent );
+		vBitangent = normalize( cross( vNormal, vTangent ) * tangent.w );
+		#ifdef FLIP_SIDED
+			vBitangent = - vBitangent;
+		#endif
+	#endif
+#endif`,uy=`#ifdef USE_NORMALMAP
+	uniform sampler2D normalMap;
+	uniform vec2 normalScale;
+#endif
+#ifdef USE_NORMALMAP_OBJECTSPACE
+	uniform mat3 normalMatrix;
+#endif
+#if ! defined ( USE_TANGENT ) && ( defined ( USE_NORMALMAP_TANGENTSPACE ) || defined ( USE_CLEARCOAT_NORMALMAP ) || defined( USE_ANISOTROPY ) )
+	mat3 getTangentFrame( vec3 eye_pos, vec3 surf_norm, vec2 uv ) {
+		vec3 q0 = dFdx( eye_pos.xyz );
+		vec3 q1 = dFdy( eye_pos.xyz );
+		vec2 st0 = dFdx( uv.st );
+		vec2 st1 = dFdy( uv.st );
+		vec3 N = surf_norm;
+		vec3 q1perp = cross( q1, N );
+		vec3 q0perp = cross( N, q0 );
+		vec3 T = q1perp * st0.x + q0perp * st1.x;
+		vec3 B = q1perp * st0.y + q0perp * st1.y;
+		float det = max( dot( T, T ), dot( B, B ) );
+		float scale = ( det == 0.0 ) ? 0.0 : inversesqrt( det );
+		return mat3( T * scale, B * scale, N );
+	}
+#endif`,dy=`#ifdef USE_CLEARCOAT
+	vec3 clearcoatNormal = nonPerturbedNormal;
+#endif`,fy=`#ifdef USE_CLEARCOAT_NORMALMAP
+	vec3 clearcoatMapN = texture2D( clearcoatNormalMap, vClearcoatNormalMapUv ).xyz * 2.0 - 1.0;
+	clearcoatMapN.xy *= clearcoatNormalScale;
+	clearcoatNormal = normalize( tbn2 * clearcoatMapN );
+#endif`,py=`#ifdef USE_CLEARCOATMAP
+	uniform sampler2D clearcoatMap;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	uniform sampler2D clearcoatNormalMap;
+	uniform vec2 clearcoatNormalScale;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	uniform sampler2D clearcoatRoughnessMap;
+#endif`,my=`#ifdef USE_IRIDESCENCEMAP
+	uniform sampler2D iridescenceMap;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	uniform sampler2D iridescenceThicknessMap;
+#endif`,gy=`#ifdef OPAQUE
+diffuseColor.a = 1.0;
+#endif
+#ifdef USE_TRANSMISSION
+diffuseColor.a *= material.transmissionAlpha;
+#endif
+gl_FragColor = vec4( outgoingLight, diffuseColor.a );`,_y=`vec3 packNormalToRGB( const in vec3 normal ) {
+	return normalize( normal ) * 0.5 + 0.5;
+}
+vec3 unpackRGBToNormal( const in vec3 rgb ) {
+	return 2.0 * rgb.xyz - 1.0;
+}
+const float PackUpscale = 256. / 255.;const float UnpackDownscale = 255. / 256.;const float ShiftRight8 = 1. / 256.;
+const float Inv255 = 1. / 255.;
+const vec4 PackFactors = vec4( 1.0, 256.0, 256.0 * 256.0, 256.0 * 256.0 * 256.0 );
+const vec2 UnpackFactors2 = vec2( UnpackDownscale, 1.0 / PackFactors.g );
+const vec3 UnpackFactors3 = vec3( UnpackDownscale / PackFactors.rg, 1.0 / PackFactors.b );
+const vec4 UnpackFactors4 = vec4( UnpackDownscale / PackFactors.rgb, 1.0 / PackFactors.a );
+vec4 packDepthToRGBA( const in float v ) {
+	if( v <= 0.0 )
+		return vec4( 0., 0., 0., 0. );
+	if( v >= 1.0 )
+		return vec4( 1., 1., 1., 1. );
+	float vuf;
+	float af = modf( v * PackFactors.a, vuf );
+	float bf = modf( vuf * ShiftRight8, vuf );
+	float gf = modf( vuf * ShiftRight8, vuf );
+	return vec4( vuf * Inv255, gf * PackUpscale, bf * PackUpscale, af );
+}
+vec3 packDepthToRGB( const in float v ) {
+	if( v <= 0.0 )
+		return vec3( 0., 0., 0. );
+	if( v >= 1.0 )
+		return vec3( 1., 1., 1. );
+	float vuf;
+	float bf = modf( v * PackFactors.b, vuf );
+	float gf = modf( vuf * ShiftRight8, vuf );
+	return vec3( vuf * Inv255, gf * PackUpscale, bf );
+}
+vec2 packDepthToRG( const in float v ) {
+	if( v <= 0.0 )
+		return vec2( 0., 0. );
+	if( v >= 1.0 )
+		return vec2( 1., 1. );
+	float vuf;
+	float gf = modf( v * 256., vuf );
+	return vec2( vuf * Inv255, gf );
+}
+float unpackRGBAToDepth( const in vec4 v ) {
+	return dot( v, UnpackFactors4 );
+}
+float unpackRGBToDepth( const in vec3 v ) {
+	return dot( v, UnpackFactors3 );
+}
+float unpackRGToDepth( const in vec2 v ) {
+	return v.r * UnpackFactors2.r + v.g * UnpackFactors2.g;
+}
+vec4 pack2HalfToRGBA( const in vec2 v ) {
+	vec4 r = vec4( v.x, fract( v.x * 255.0 ), v.y, fract( v.y * 255.0 ) );
+	return vec4( r.x - r.y / 255.0, r.y, r.z - r.w / 255.0, r.w );
+}
+vec2 unpackRGBATo2Half( const in vec4 v ) {
+	return vec2( v.x + ( v.y / 255.0 ), v.z + ( v.w / 255.0 ) );
+}
+float viewZToOrthographicDepth( const in float viewZ, const in float near, const in float far ) {
+	return ( viewZ + near ) / ( near - far );
+}
+float orthographicDepthToViewZ( const in float depth, const in float near, const in float far ) {
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+	
+		return depth * ( far - near ) - far;
+	#else
+		return depth * ( near - far ) - near;
+	#endif
+}
+float viewZToPerspectiveDepth( const in float viewZ, const in float near, const in float far ) {
+	return ( ( near + viewZ ) * far ) / ( ( far - near ) * viewZ );
+}
+float perspectiveDepthToViewZ( const in float depth, const in float near, const in float far ) {
+	
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+		return ( near * far ) / ( ( near - far ) * depth - near );
+	#else
+		return ( near * far ) / ( ( far - near ) * depth - far );
+	#endif
+}`,vy=`#ifdef PREMULTIPLIED_ALPHA
+	gl_FragColor.rgb *= gl_FragColor.a;
+#endif`,yy=`vec4 mvPosition = vec4( transformed, 1.0 );
+#ifdef USE_BATCHING
+	mvPosition = batchingMatrix * mvPosition;
+#endif
+#ifdef USE_INSTANCING
+	mvPosition = instanceMatrix * mvPosition;
+#endif
+mvPosition = modelViewMatrix * mvPosition;
+gl_Position = projectionMatrix * mvPosition;`,xy=`#ifdef DITHERING
+	gl_FragColor.rgb = dithering( gl_FragColor.rgb );
+#endif`,Sy=`#ifdef DITHERING
+	vec3 dithering( vec3 color ) {
+		float grid_position = rand( gl_FragCoord.xy );
+		vec3 dither_shift_RGB = vec3( 0.25 / 255.0, -0.25 / 255.0, 0.25 / 255.0 );
+		dither_shift_RGB = mix( 2.0 * dither_shift_RGB, -2.0 * dither_shift_RGB, grid_position );
+		return color + dither_shift_RGB;
+	}
+#endif`,My=`float roughnessFactor = roughness;
+#ifdef USE_ROUGHNESSMAP
+	vec4 texelRoughness = texture2D( roughnessMap, vRoughnessMapUv );
+	roughnessFactor *= texelRoughness.g;
+#endif`,by=`#ifdef USE_ROUGHNESSMAP
+	uniform sampler2D roughnessMap;
+#endif`,wy=`#if NUM_SPOT_LIGHT_COORDS > 0
+	varying vec4 vSpotLightCoord[ NUM_SPOT_LIGHT_COORDS ];
+#endif
+#if NUM_SPOT_LIGHT_MAPS > 0
+	uniform sampler2D spotLightMap[ NUM_SPOT_LIGHT_MAPS ];
+#endif
+#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		#define SUN_LIGHT_CASCADES 2
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow sunShadowMap[ NUM_SUN_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D sunShadowMap[ NUM_SUN_LIGHT_SHADOWS ];
+		#endif
+		uniform mat4 sunShadowMatrix[ NUM_SUN_LIGHT_SHADOWS * SUN_LIGHT_CASCADES ];
+		uniform vec4 sunShadowCascade[ NUM_SUN_LIGHT_SHADOWS * SUN_LIGHT_CASCADES ];
+		varying vec4 vSunShadowWorldPosition;
+		varying vec3 vSunShadowWorldNormal;
+		struct SunLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SunLightShadow sunLightShadows[ NUM_SUN_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow directionalShadowMap[ NUM_DIR_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D directionalShadowMap[ NUM_DIR_LIGHT_SHADOWS ];
+		#endif
+		varying vec4 vDirectionalShadowCoord[ NUM_DIR_LIGHT_SHADOWS ];
+		struct DirectionalLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform DirectionalLightShadow directionalLightShadows[ NUM_DIR_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform sampler2DShadow spotShadowMap[ NUM_SPOT_LIGHT_SHADOWS ];
+		#else
+			uniform sampler2D spotShadowMap[ NUM_SPOT_LIGHT_SHADOWS ];
+		#endif
+		struct SpotLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SpotLightShadow spotLightShadows[ NUM_SPOT_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		#if defined( SHADOWMAP_TYPE_PCF )
+			uniform samplerCubeShadow pointShadowMap[ NUM_POINT_LIGHT_SHADOWS ];
+		#elif defined( SHADOWMAP_TYPE_BASIC )
+			uniform samplerCube pointShadowMap[ NUM_POINT_LIGHT_SHADOWS ];
+		#endif
+		varying vec4 vPointShadowCoord[ NUM_POINT_LIGHT_SHADOWS ];
+		struct PointLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+			float shadowCameraNear;
+			float shadowCameraFar;
+		};
+		uniform PointLightShadow pointLightShadows[ NUM_POINT_LIGHT_SHADOWS ];
+	#endif
+	#if defined( SHADOWMAP_TYPE_PCF )
+		float interleavedGradientNoise( vec2 position ) {
+			return fract( 52.9829189 * fract( dot( position, vec2( 0.06711056, 0.00583715 ) ) ) );
+		}
+		vec2 vogelDiskSample( int sampleIndex, int samplesCount, float phi ) {
+			const float goldenAngle = 2.399963229728653;
+			float r = sqrt( ( float( sampleIndex ) + 0.5 ) / float( samplesCount ) );
+			float theta = float( sampleIndex ) * goldenAngle + phi;
+			return vec2( cos( theta ), sin( theta ) ) * r;
+		}
+	#endif
+	#if defined( SHADOWMAP_TYPE_PCF )
+		float getShadow( sampler2DShadow shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				vec2 texelSize = vec2( 1.0 ) / shadowMapSize;
+				vec2 radius = shadowRadius * texelSize;
+				float phi = interleavedGradientNoise( gl_FragCoord.xy ) * PI2;
+				shadow = (
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 0, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 1, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 2, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 3, 5, phi ) * radius, shadowCoord.z ) ) +
+					texture( shadowMap, vec3( shadowCoord.xy + vogelDiskSample( 4, 5, phi ) * radius, shadowCoord.z ) )
+				) * 0.2;
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#elif defined( SHADOWMAP_TYPE_VSM )
+		float getShadow( sampler2D shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				vec2 distribution = texture2D( shadowMap, shadowCoord.xy ).rg;
+				float mean = distribution.x;
+				float variance = distribution.y * distribution.y;
+				#ifdef USE_REVERSED_DEPTH_BUFFER
+					float hard_shadow = step( mean, shadowCoord.z );
+				#else
+					float hard_shadow = step( shadowCoord.z, mean );
+				#endif
+				
+				if ( hard_shadow == 1.0 ) {
+					shadow = 1.0;
+				} else {
+					variance = max( variance, 0.0000001 );
+					float d = shadowCoord.z - mean;
+					float p_max = variance / ( variance + d * d );
+					p_max = clamp( ( p_max - 0.3 ) / 0.65, 0.0, 1.0 );
+					shadow = max( hard_shadow, p_max );
+				}
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#else
+		float getShadow( sampler2D shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord ) {
+			float shadow = 1.0;
+			shadowCoord.xyz /= shadowCoord.w;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				shadowCoord.z -= shadowBias;
+			#else
+				shadowCoord.z += shadowBias;
+			#endif
+			bool inFrustum = shadowCoord.x >= 0.0 && shadowCoord.x <= 1.0 && shadowCoord.y >= 0.0 && shadowCoord.y <= 1.0;
+			bool frustumTest = inFrustum && shadowCoord.z <= 1.0;
+			if ( frustumTest ) {
+				float depth = texture2D( shadowMap, shadowCoord.xy ).r;
+				#ifdef USE_REVERSED_DEPTH_BUFFER
+					shadow = step( depth, shadowCoord.z );
+				#else
+					shadow = step( shadowCoord.z, depth );
+				#endif
+			}
+			return mix( 1.0, shadow, shadowIntensity );
+		}
+	#endif
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		float getSunShadow(
+			#if defined( SHADOWMAP_TYPE_PCF )
+				sampler2DShadow shadowMap,
+			#else
+				sampler2D shadowMap,
+			#endif
+			SunLightShadow sunLightShadow,
+			int shadowIndex
+		) {
+			vec4 shadowWorldPosition = vec4( vSunShadowWorldPosition.xyz + vSunShadowWorldNormal * sunLightShadow.shadowNormalBias, 1.0 );
+			float viewDepth = vSunShadowWorldPosition.w;
+			int cascadeOffset = shadowIndex * SUN_LIGHT_CASCADES;
+			float shadow = 1.0;
+			for ( int i = SUN_LIGHT_CASCADES - 1; i >= 0; i -- ) {
+				vec4 cascade = sunShadowCascade[ cascadeOffset + i ];
+				if ( viewDepth >= cascade.x && viewDepth < cascade.y ) {
+					float cascadeShadow = getShadow(
+						shadowMap,
+						sunLightShadow.shadowMapSize,
+						sunLightShadow.shadowIntensity,
+						sunLightShadow.shadowBias,
+						sunLightShadow.shadowRadius,
+						sunShadowMatrix[ cascadeOffset + i ] * shadowWorldPosition
+					);
+					shadow = mix( cascadeShadow, shadow, smoothstep( cascade.z, cascade.y, viewDepth ) );
+				}
+			}
+			return shadow;
+		}
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+	#if defined( SHADOWMAP_TYPE_PCF )
+	float getPointShadow( samplerCubeShadow shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord, float shadowCameraNear, float shadowCameraFar ) {
+		float shadow = 1.0;
+		vec3 lightToPosition = shadowCoord.xyz;
+		vec3 bd3D = normalize( lightToPosition );
+		vec3 absVec = abs( lightToPosition );
+		float viewSpaceZ = max( max( absVec.x, absVec.y ), absVec.z );
+		if ( viewSpaceZ - shadowCameraFar <= 0.0 && viewSpaceZ - shadowCameraNear >= 0.0 ) {
+			float lightDistance = length( lightToPosition );
+			float depthRange = shadowCameraFar - shadowCameraNear;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				float depthA = - shadowCameraNear / depthRange - shadowBias;
+				float depthB = shadowCameraNear * shadowCameraFar / ( depthRange * lightDistance );
+			#else
+				float depthA = shadowCameraFar / depthRange + shadowBias;
+				float depthB = - shadowCameraNear * shadowCameraFar / ( depthRange * lightDistance );
+			#endif
+			float texelSize = shadowRadius / shadowMapSize.x;
+			vec3 absDir = abs( bd3D );
+			vec3 tangent = absDir.x > absDir.z ? vec3( 0.0, 1.0, 0.0 ) : vec3( 1.0, 0.0, 0.0 );
+			tangent = normalize( cross( bd3D, tangent ) );
+			vec3 bitangent = cross( bd3D, tangent );
+			float phi = interleavedGradientNoise( gl_FragCoord.xy ) * PI2;
+			shadow = 0.0;
+			for ( int i = 0; i < 5; i ++ ) {
+				vec2 offset = vogelDiskSample( i, 5, phi );
+				vec3 direction = bd3D + ( tangent * offset.x + bitangent * offset.y ) * texelSize;
+				vec3 absDirection = abs( direction );
+				float dp = depthA + depthB / max( max( absDirection.x, absDirection.y ), absDirection.z );
+				shadow += texture( shadowMap, vec4( direction, dp ) );
+			}
+			shadow *= 0.2;
+		}
+		return mix( 1.0, shadow, shadowIntensity );
+	}
+	#elif defined( SHADOWMAP_TYPE_BASIC )
+	float getPointShadow( samplerCube shadowMap, vec2 shadowMapSize, float shadowIntensity, float shadowBias, float shadowRadius, vec4 shadowCoord, float shadowCameraNear, float shadowCameraFar ) {
+		float shadow = 1.0;
+		vec3 lightToPosition = shadowCoord.xyz;
+		vec3 absVec = abs( lightToPosition );
+		float viewSpaceZ = max( max( absVec.x, absVec.y ), absVec.z );
+		if ( viewSpaceZ - shadowCameraFar <= 0.0 && viewSpaceZ - shadowCameraNear >= 0.0 ) {
+			float dp = ( shadowCameraFar * ( viewSpaceZ - shadowCameraNear ) ) / ( viewSpaceZ * ( shadowCameraFar - shadowCameraNear ) );
+			dp += shadowBias;
+			vec3 bd3D = normalize( lightToPosition );
+			float depth = textureCube( shadowMap, bd3D ).r;
+			#ifdef USE_REVERSED_DEPTH_BUFFER
+				depth = 1.0 - depth;
+			#endif
+			shadow = step( dp, depth );
+		}
+		return mix( 1.0, shadow, shadowIntensity );
+	}
+	#endif
+	#endif
+#endif`,Ey=`#if NUM_SPOT_LIGHT_COORDS > 0
+	uniform mat4 spotLightMatrix[ NUM_SPOT_LIGHT_COORDS ];
+	varying vec4 vSpotLightCoord[ NUM_SPOT_LIGHT_COORDS ];
+#endif
+#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		varying vec4 vSunShadowWorldPosition;
+		varying vec3 vSunShadowWorldNormal;
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		uniform mat4 directionalShadowMatrix[ NUM_DIR_LIGHT_SHADOWS ];
+		varying vec4 vDirectionalShadowCoord[ NUM_DIR_LIGHT_SHADOWS ];
+		struct DirectionalLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform DirectionalLightShadow directionalLightShadows[ NUM_DIR_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+		struct SpotLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+		};
+		uniform SpotLightShadow spotLightShadows[ NUM_SPOT_LIGHT_SHADOWS ];
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		uniform mat4 pointShadowMatrix[ NUM_POINT_LIGHT_SHADOWS ];
+		varying vec4 vPointShadowCoord[ NUM_POINT_LIGHT_SHADOWS ];
+		struct PointLightShadow {
+			float shadowIntensity;
+			float shadowBias;
+			float shadowNormalBias;
+			float shadowRadius;
+			vec2 shadowMapSize;
+			float shadowCameraNear;
+			float shadowCameraFar;
+		};
+		uniform PointLightShadow pointLightShadows[ NUM_POINT_LIGHT_SHADOWS ];
+	#endif
+#endif`,Ty=`#if ( defined( USE_SHADOWMAP ) && ( NUM_DIR_LIGHT_SHADOWS > 0 || NUM_SUN_LIGHT_SHADOWS > 0 || NUM_POINT_LIGHT_SHADOWS > 0 ) ) || ( NUM_SPOT_LIGHT_COORDS > 0 )
+	#ifdef HAS_NORMAL
+		vec3 shadowWorldNormal = transformNormalByInverseViewMatrix( transformedNormal, viewMatrix );
+	#else
+		vec3 shadowWorldNormal = vec3( 0.0 );
+	#endif
+	vec4 shadowWorldPosition;
+#endif
+#if defined( USE_SHADOWMAP )
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+		vSunShadowWorldPosition = vec4( worldPosition.xyz, - mvPosition.z );
+		vSunShadowWorldNormal = shadowWorldNormal;
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_DIR_LIGHT_SHADOWS; i ++ ) {
+			shadowWorldPosition = worldPosition + vec4( shadowWorldNormal * directionalLightShadows[ i ].shadowNormalBias, 0 );
+			vDirectionalShadowCoord[ i ] = directionalShadowMatrix[ i ] * shadowWorldPosition;
+		}
+		#pragma unroll_loop_end
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0
+		#pragma unroll_loop_start
+		for ( int i = 0; i < NUM_POINT_LIGHT_SHADOWS; i ++ ) {
+			shadowWorldPosition = worldPosition + vec4( shadowWorldNormal * pointLightShadows[ i ].shadowNormalBias, 0 );
+			vPointShadowCoord[ i ] = pointShadowMatrix[ i ] * shadowWorldPosition;
+		}
+		#pragma unroll_loop_end
+	#endif
+#endif
+#if NUM_SPOT_LIGHT_COORDS > 0
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHT_COORDS; i ++ ) {
+		shadowWorldPosition = worldPosition;
+		#if ( defined( USE_SHADOWMAP ) && UNROLLED_LOOP_INDEX < NUM_SPOT_LIGHT_SHADOWS )
+			shadowWorldPosition.xyz += shadowWorldNormal * spotLightShadows[ i ].shadowNormalBias;
+		#endif
+		vSpotLightCoord[ i ] = spotLightMatrix[ i ] * shadowWorldPosition;
+	}
+	#pragma unroll_loop_end
+#endif`,Ay=`float getShadowMask() {
+	float shadow = 1.0;
+	#ifdef USE_SHADOWMAP
+	#if NUM_SUN_LIGHT_SHADOWS > 0
+	SunLightShadow sunLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SUN_LIGHT_SHADOWS; i ++ ) {
+		sunLight = sunLightShadows[ i ];
+		shadow *= receiveShadow ? getSunShadow( sunShadowMap[ i ], sunLight, UNROLLED_LOOP_INDEX ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_DIR_LIGHT_SHADOWS > 0
+	DirectionalLightShadow directionalLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_DIR_LIGHT_SHADOWS; i ++ ) {
+		directionalLight = directionalLightShadows[ i ];
+		shadow *= receiveShadow ? getShadow( directionalShadowMap[ i ], directionalLight.shadowMapSize, directionalLight.shadowIntensity, directionalLight.shadowBias, directionalLight.shadowRadius, vDirectionalShadowCoord[ i ] ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_SPOT_LIGHT_SHADOWS > 0
+	SpotLightShadow spotLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_SPOT_LIGHT_SHADOWS; i ++ ) {
+		spotLight = spotLightShadows[ i ];
+		shadow *= receiveShadow ? getShadow( spotShadowMap[ i ], spotLight.shadowMapSize, spotLight.shadowIntensity, spotLight.shadowBias, spotLight.shadowRadius, vSpotLightCoord[ i ] ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#if NUM_POINT_LIGHT_SHADOWS > 0 && ( defined( SHADOWMAP_TYPE_PCF ) || defined( SHADOWMAP_TYPE_BASIC ) )
+	PointLightShadow pointLight;
+	#pragma unroll_loop_start
+	for ( int i = 0; i < NUM_POINT_LIGHT_SHADOWS; i ++ ) {
+		pointLight = pointLightShadows[ i ];
+		shadow *= receiveShadow ? getPointShadow( pointShadowMap[ i ], pointLight.shadowMapSize, pointLight.shadowIntensity, pointLight.shadowBias, pointLight.shadowRadius, vPointShadowCoord[ i ], pointLight.shadowCameraNear, pointLight.shadowCameraFar ) : 1.0;
+	}
+	#pragma unroll_loop_end
+	#endif
+	#endif
+	return shadow;
+}`,Cy=`#ifdef USE_SKINNING
+	mat4 boneMatX = getBoneMatrix( skinIndex.x );
+	mat4 boneMatY = getBoneMatrix( skinIndex.y );
+	mat4 boneMatZ = getBoneMatrix( skinIndex.z );
+	mat4 boneMatW = getBoneMatrix( skinIndex.w );
+#endif`,Ry=`#ifdef USE_SKINNING
+	uniform mat4 bindMatrix;
+	uniform mat4 bindMatrixInverse;
+	uniform highp sampler2D boneTexture;
+	mat4 getBoneMatrix( const in float i ) {
+		int size = textureSize( boneTexture, 0 ).x;
+		int j = int( i ) * 4;
+		int x = j % size;
+		int y = j / size;
+		vec4 v1 = texelFetch( boneTexture, ivec2( x, y ), 0 );
+		vec4 v2 = texelFetch( boneTexture, ivec2( x + 1, y ), 0 );
+		vec4 v3 = texelFetch( boneTexture, ivec2( x + 2, y ), 0 );
+		vec4 v4 = texelFetch( boneTexture, ivec2( x + 3, y ), 0 );
+		return mat4( v1, v2, v3, v4 );
+	}
+#endif`,Py=`#ifdef USE_SKINNING
+	vec4 skinVertex = bindMatrix * vec4( transformed, 1.0 );
+	vec4 skinned = vec4( 0.0 );
+	skinned += boneMatX * skinVertex * skinWeight.x;
+	skinned += boneMatY * skinVertex * skinWeight.y;
+	skinned += boneMatZ * skinVertex * skinWeight.z;
+	skinned += boneMatW * skinVertex * skinWeight.w;
+	transformed = ( bindMatrixInverse * skinned ).xyz;
+#endif`,Iy=`#ifdef USE_SKINNING
+	mat4 skinMatrix = mat4( 0.0 );
+	skinMatrix += skinWeight.x * boneMatX;
+	skinMatrix += skinWeight.y * boneMatY;
+	skinMatrix += skinWeight.z * boneMatZ;
+	skinMatrix += skinWeight.w * boneMatW;
+	skinMatrix = bindMatrixInverse * skinMatrix * bindMatrix;
+	objectNormal = vec4( skinMatrix * vec4( objectNormal, 0.0 ) ).xyz;
+	#ifdef USE_TANGENT
+		objectTangent = vec4( skinMatrix * vec4( objectTangent, 0.0 ) ).xyz;
+	#endif
+#endif`,Ly=`float specularStrength;
+#ifdef USE_SPECULARMAP
+	vec4 texelSpecular = texture2D( specularMap, vSpecularMapUv );
+	specularStrength = texelSpecular.r;
+#else
+	specularStrength = 1.0;
+#endif`,Dy=`#ifdef USE_SPECULARMAP
+	uniform sampler2D specularMap;
+#endif`,Fy=`#if defined( TONE_MAPPING )
+	gl_FragColor.rgb = toneMapping( gl_FragColor.rgb );
+#endif`,Ny=`#ifndef saturate
+#define saturate( a ) clamp( a, 0.0, 1.0 )
+#endif
+uniform float toneMappingExposure;
+vec3 LinearToneMapping( vec3 color ) {
+	return saturate( toneMappingExposure * color );
+}
+vec3 ReinhardToneMapping( vec3 color ) {
+	color *= toneMappingExposure;
+	return saturate( color / ( vec3( 1.0 ) + color ) );
+}
+vec3 CineonToneMapping( vec3 color ) {
+	color *= toneMappingExposure;
+	color = max( vec3( 0.0 ), color - 0.004 );
+	return pow( ( color * ( 6.2 * color + 0.5 ) ) / ( color * ( 6.2 * color + 1.7 ) + 0.06 ), vec3( 2.2 ) );
+}
+vec3 RRTAndODTFit( vec3 v ) {
+	vec3 a = v * ( v + 0.0245786 ) - 0.000090537;
+	vec3 b = v * ( 0.983729 * v + 0.4329510 ) + 0.238081;
+	return a / b;
+}
+vec3 ACESFilmicToneMapping( vec3 color ) {
+	const mat3 ACESInputMat = mat3(
+		vec3( 0.59719, 0.07600, 0.02840 ),		vec3( 0.35458, 0.90834, 0.13383 ),
+		vec3( 0.04823, 0.01566, 0.83777 )
+	);
+	const mat3 ACESOutputMat = mat3(
+		vec3(  1.60475, -0.10208, -0.00327 ),		vec3( -0.53108,  1.10813, -0.07276 ),
+		vec3( -0.07367, -0.00605,  1.07602 )
+	);
+	color *= toneMappingExposure / 0.6;
+	color = ACESInputMat * color;
+	color = RRTAndODTFit( color );
+	color = ACESOutputMat * color;
+	return saturate( color );
+}
+const mat3 LINEAR_REC2020_TO_LINEAR_SRGB = mat3(
+	vec3( 1.6605, - 0.1246, - 0.0182 ),
+	vec3( - 0.5876, 1.1329, - 0.1006 ),
+	vec3( - 0.0728, - 0.0083, 1.1187 )
+);
+const mat3 LINEAR_SRGB_TO_LINEAR_REC2020 = mat3(
+	vec3( 0.6274, 0.0691, 0.0164 ),
+	vec3( 0.3293, 0.9195, 0.0880 ),
+	vec3( 0.0433, 0.0113, 0.8956 )
+);
+vec3 agxDefaultContrastApprox( vec3 x ) {
+	vec3 x2 = x * x;
+	vec3 x4 = x2 * x2;
+	return + 15.5 * x4 * x2
+		- 40.14 * x4 * x
+		+ 31.96 * x4
+		- 6.868 * x2 * x
+		+ 0.4298 * x2
+		+ 0.1191 * x
+		- 0.00232;
+}
+vec3 AgXToneMapping( vec3 color ) {
+	const mat3 AgXInsetMatrix = mat3(
+		vec3( 0.856627153315983, 0.137318972929847, 0.11189821299995 ),
+		vec3( 0.0951212405381588, 0.761241990602591, 0.0767994186031903 ),
+		vec3( 0.0482516061458583, 0.101439036467562, 0.811302368396859 )
+	);
+	const mat3 AgXOutsetMatrix = mat3(
+		vec3( 1.1271005818144368, - 0.1413297634984383, - 0.14132976349843826 ),
+		vec3( - 0.11060664309660323, 1.157823702216272, - 0.11060664309660294 ),
+		vec3( - 0.016493938717834573, - 0.016493938717834257, 1.2519364065950405 )
+	);
+	const float AgxMinEv = - 12.47393;	const float AgxMaxEv = 4.026069;
+	color *= toneMappingExposure;
+	color = LINEAR_SRGB_TO_LINEAR_REC2020 * color;
+	color = AgXInsetMatrix * color;
+	color = max( color, 1e-10 );	color = log2( color );
+	color = ( color - AgxMinEv ) / ( AgxMaxEv - AgxMinEv );
+	color = clamp( color, 0.0, 1.0 );
+	color = agxDefaultContrastApprox( color );
+	color = AgXOutsetMatrix * color;
+	color = pow( max( vec3( 0.0 ), color ), vec3( 2.2 ) );
+	color = LINEAR_REC2020_TO_LINEAR_SRGB * color;
+	color = clamp( color, 0.0, 1.0 );
+	return color;
+}
+vec3 NeutralToneMapping( vec3 color ) {
+	const float StartCompression = 0.8 - 0.04;
+	const float Desaturation = 0.15;
+	color *= toneMappingExposure;
+	float x = min( color.r, min( color.g, color.b ) );
+	float offset = x < 0.08 ? x - 6.25 * x * x : 0.04;
+	color -= offset;
+	float peak = max( color.r, max( color.g, color.b ) );
+	if ( peak < StartCompression ) return color;
+	float d = 1. - StartCompression;
+	float newPeak = 1. - d * d / ( peak + d - StartCompression );
+	color *= newPeak / peak;
+	float g = 1. - 1. / ( Desaturation * ( peak - newPeak ) + 1. );
+	return mix( color, vec3( newPeak ), g );
+}
+vec3 CustomToneMapping( vec3 color ) { return color; }`,Uy=`#ifdef USE_TRANSMISSION
+	material.transmission = transmission;
+	material.transmissionAlpha = 1.0;
+	material.thickness = thickness;
+	material.attenuationDistance = attenuationDistance;
+	material.attenuationColor = attenuationColor;
+	#ifdef USE_TRANSMISSIONMAP
+		material.transmission *= texture2D( transmissionMap, vTransmissionMapUv ).r;
+	#endif
+	#ifdef USE_THICKNESSMAP
+		material.thickness *= texture2D( thicknessMap, vThicknessMapUv ).g;
+	#endif
+	vec3 pos = vWorldPosition;
+	vec3 v = normalize( cameraPosition - pos );
+	vec3 n = transformNormalByInverseViewMatrix( normal, viewMatrix );
+	vec4 transmitted = getIBLVolumeRefraction(
+		n, v, material.roughness, material.diffuseContribution, material.specularColorBlended, material.specularF90,
+		pos, modelMatrix, viewMatrix, projectionMatrix, material.dispersion, material.ior, material.thickness,
+		material.attenuationColor, material.attenuationDistance );
+	material.transmissionAlpha = mix( material.transmissionAlpha, transmitted.a, material.transmission );
+	totalDiffuse = mix( totalDiffuse, transmitted.rgb, material.transmission );
+#endif`,Oy=`#ifdef USE_TRANSMISSION
+	uniform float transmission;
+	uniform float thickness;
+	uniform float attenuationDistance;
+	uniform vec3 attenuationColor;
+	#ifdef USE_TRANSMISSIONMAP
+		uniform sampler2D transmissionMap;
+	#endif
+	#ifdef USE_THICKNESSMAP
+		uniform sampler2D thicknessMap;
+	#endif
+	uniform vec2 transmissionSamplerSize;
+	uniform sampler2D transmissionSamplerMap;
+	uniform mat4 modelMatrix;
+	uniform mat4 projectionMatrix;
+	varying vec3 vWorldPosition;
+	float w0( float a ) {
+		return ( 1.0 / 6.0 ) * ( a * ( a * ( - a + 3.0 ) - 3.0 ) + 1.0 );
+	}
+	float w1( float a ) {
+		return ( 1.0 / 6.0 ) * ( a *  a * ( 3.0 * a - 6.0 ) + 4.0 );
+	}
+	float w2( float a ){
+		return ( 1.0 / 6.0 ) * ( a * ( a * ( - 3.0 * a + 3.0 ) + 3.0 ) + 1.0 );
+	}
+	float w3( float a ) {
+		return ( 1.0 / 6.0 ) * ( a * a * a );
+	}
+	float g0( float a ) {
+		return w0( a ) + w1( a );
+	}
+	float g1( float a ) {
+		return w2( a ) + w3( a );
+	}
+	float h0( float a ) {
+		return - 1.0 + w1( a ) / ( w0( a ) + w1( a ) );
+	}
+	float h1( float a ) {
+		return 1.0 + w3( a ) / ( w2( a ) + w3( a ) );
+	}
+	vec4 bicubic( sampler2D tex, vec2 uv, vec4 texelSize, float lod ) {
+		uv = uv * texelSize.zw + 0.5;
+		vec2 iuv = floor( uv );
+		vec2 fuv = fract( uv );
+		float g0x = g0( fuv.x );
+		float g1x = g1( fuv.x );
+		float h0x = h0( fuv.x );
+		float h1x = h1( fuv.x );
+		float h0y = h0( fuv.y );
+		float h1y = h1( fuv.y );
+		vec2 p0 = ( vec2( iuv.x + h0x, iuv.y + h0y ) - 0.5 ) * texelSize.xy;
+		vec2 p1 = ( vec2( iuv.x + h1x, iuv.y + h0y ) - 0.5 ) * texelSize.xy;
+		vec2 p2 = ( vec2( iuv.x + h0x, iuv.y + h1y ) - 0.5 ) * texelSize.xy;
+		vec2 p3 = ( vec2( iuv.x + h1x, iuv.y + h1y ) - 0.5 ) * texelSize.xy;
+		return g0( fuv.y ) * ( g0x * textureLod( tex, p0, lod ) + g1x * textureLod( tex, p1, lod ) ) +
+			g1( fuv.y ) * ( g0x * textureLod( tex, p2, lod ) + g1x * textureLod( tex, p3, lod ) );
+	}
+	vec4 textureBicubic( sampler2D sampler, vec2 uv, float lod ) {
+		vec2 fLodSize = vec2( textureSize( sampler, int( lod ) ) );
+		vec2 cLodSize = vec2( textureSize( sampler, int( lod + 1.0 ) ) );
+		vec2 fLodSizeInv = 1.0 / fLodSize;
+		vec2 cLodSizeInv = 1.0 / cLodSize;
+		vec4 fSample = bicubic( sampler, uv, vec4( fLodSizeInv, fLodSize ), floor( lod ) );
+		vec4 cSample = bicubic( sampler, uv, vec4( cLodSizeInv, cLodSize ), ceil( lod ) );
+		return mix( fSample, cSample, fract( lod ) );
+	}
+	vec3 getVolumeTransmissionRay( const in vec3 n, const in vec3 v, const in float thickness, const in float ior, const in mat4 modelMatrix ) {
+		vec3 refractionVector = refract( - v, normalize( n ), 1.0 / ior );
+		vec3 modelScale;
+		modelScale.x = length( vec3( modelMatrix[ 0 ].xyz ) );
+		modelScale.y = length( vec3( modelMatrix[ 1 ].xyz ) );
+		modelScale.z = length( vec3( modelMatrix[ 2 ].xyz ) );
+		return normalize( refractionVector ) * thickness * modelScale;
+	}
+	float applyIorToRoughness( const in float roughness, const in float ior ) {
+		return roughness * clamp( ior * 2.0 - 2.0, 0.0, 1.0 );
+	}
+	vec4 getTransmissionSample( const in vec2 fragCoord, const in float roughness, const in float ior ) {
+		float lod = log2( transmissionSamplerSize.x ) * applyIorToRoughness( roughness, ior );
+		return textureBicubic( transmissionSamplerMap, fragCoord.xy, lod );
+	}
+	vec3 volumeAttenuation( const in float transmissionDistance, const in vec3 attenuationColor, const in float attenuationDistance ) {
+		if ( isinf( attenuationDistance ) ) {
+			return vec3( 1.0 );
+		} else {
+			vec3 attenuationCoefficient = -log( attenuationColor ) / attenuationDistance;
+			vec3 transmittance = exp( - attenuationCoefficient * transmissionDistance );			return transmittance;
+		}
+	}
+	vec4 getIBLVolumeRefraction( const in vec3 n, const in vec3 v, const in float roughness, const in vec3 diffuseColor,
+		const in vec3 specularColor, const in float specularF90, const in vec3 position, const in mat4 modelMatrix,
+		const in mat4 viewMatrix, const in mat4 projMatrix, const in float dispersion, const in float ior, const in float thickness,
+		const in vec3 attenuationColor, const in float attenuationDistance ) {
+		vec4 transmittedLight;
+		vec3 transmittance;
+		#ifdef USE_DISPERSION
+			float halfSpread = ( ior - 1.0 ) * 0.025 * dispersion;
+			vec3 iors = vec3( ior - halfSpread, ior, ior + halfSpread );
+			for ( int i = 0; i < 3; i ++ ) {
+				vec3 transmissionRay = getVolumeTransmissionRay( n, v, thickness, iors[ i ], modelMatrix );
+				vec3 refractedRayExit = position + transmissionRay;
+				vec4 ndcPos = projMatrix * viewMatrix * vec4( refractedRayExit, 1.0 );
+				vec2 refractionCoords = ndcPos.xy / ndcPos.w;
+				refractionCoords += 1.0;
+				refractionCoords /= 2.0;
+				vec4 transmissionSample = getTransmissionSample( refractionCoords, roughness, iors[ i ] );
+				transmittedLight[ i ] = transmissionSample[ i ];
+				transmittedLight.a += transmissionSample.a;
+				transmittance[ i ] = diffuseColor[ i ] * volumeAttenuation( length( transmissionRay ), attenuationColor, attenuationDistance )[ i ];
+			}
+			transmittedLight.a /= 3.0;
+		#else
+			vec3 transmissionRay = getVolumeTransmissionRay( n, v, thickness, ior, modelMatrix );
+			vec3 refractedRayExit = position + transmissionRay;
+			vec4 ndcPos = projMatrix * viewMatrix * vec4( refractedRayExit, 1.0 );
+			vec2 refractionCoords = ndcPos.xy / ndcPos.w;
+			refractionCoords += 1.0;
+			refractionCoords /= 2.0;
+			transmittedLight = getTransmissionSample( refractionCoords, roughness, ior );
+			transmittance = diffuseColor * volumeAttenuation( length( transmissionRay ), attenuationColor, attenuationDistance );
+		#endif
+		vec3 attenuatedColor = transmittance * transmittedLight.rgb;
+		vec3 F = EnvironmentBRDF( n, v, specularColor, specularF90, roughness );
+		float transmittanceFactor = ( transmittance.r + transmittance.g + transmittance.b ) / 3.0;
+		return vec4( ( 1.0 - F ) * attenuatedColor, 1.0 - ( 1.0 - transmittedLight.a ) * transmittanceFactor );
+	}
+#endif`,By=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	varying vec2 vUv;
+#endif
+#ifdef USE_MAP
+	varying vec2 vMapUv;
+#endif
+#ifdef USE_ALPHAMAP
+	varying vec2 vAlphaMapUv;
+#endif
+#ifdef USE_LIGHTMAP
+	varying vec2 vLightMapUv;
+#endif
+#ifdef USE_AOMAP
+	varying vec2 vAoMapUv;
+#endif
+#ifdef USE_BUMPMAP
+	varying vec2 vBumpMapUv;
+#endif
+#ifdef USE_NORMALMAP
+	varying vec2 vNormalMapUv;
+#endif
+#ifdef USE_EMISSIVEMAP
+	varying vec2 vEmissiveMapUv;
+#endif
+#ifdef USE_METALNESSMAP
+	varying vec2 vMetalnessMapUv;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	varying vec2 vRoughnessMapUv;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	varying vec2 vDiffuseRoughnessMapUv;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	varying vec2 vAnisotropyMapUv;
+#endif
+#ifdef USE_CLEARCOATMAP
+	varying vec2 vClearcoatMapUv;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	varying vec2 vClearcoatNormalMapUv;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	varying vec2 vClearcoatRoughnessMapUv;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	varying vec2 vIridescenceMapUv;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	varying vec2 vIridescenceThicknessMapUv;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	varying vec2 vSheenColorMapUv;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	varying vec2 vSheenRoughnessMapUv;
+#endif
+#ifdef USE_SPECULARMAP
+	varying vec2 vSpecularMapUv;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	varying vec2 vSpecularColorMapUv;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	varying vec2 vSpecularIntensityMapUv;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	uniform mat3 transmissionMapTransform;
+	varying vec2 vTransmissionMapUv;
+#endif
+#ifdef USE_THICKNESSMAP
+	uniform mat3 thicknessMapTransform;
+	varying vec2 vThicknessMapUv;
+#endif`,ky=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	varying vec2 vUv;
+#endif
+#ifdef USE_MAP
+	uniform mat3 mapTransform;
+	varying vec2 vMapUv;
+#endif
+#ifdef USE_ALPHAMAP
+	uniform mat3 alphaMapTransform;
+	varying vec2 vAlphaMapUv;
+#endif
+#ifdef USE_LIGHTMAP
+	uniform mat3 lightMapTransform;
+	varying vec2 vLightMapUv;
+#endif
+#ifdef USE_AOMAP
+	uniform mat3 aoMapTransform;
+	varying vec2 vAoMapUv;
+#endif
+#ifdef USE_BUMPMAP
+	uniform mat3 bumpMapTransform;
+	varying vec2 vBumpMapUv;
+#endif
+#ifdef USE_NORMALMAP
+	uniform mat3 normalMapTransform;
+	varying vec2 vNormalMapUv;
+#endif
+#ifdef USE_DISPLACEMENTMAP
+	uniform mat3 displacementMapTransform;
+	varying vec2 vDisplacementMapUv;
+#endif
+#ifdef USE_EMISSIVEMAP
+	uniform mat3 emissiveMapTransform;
+	varying vec2 vEmissiveMapUv;
+#endif
+#ifdef USE_METALNESSMAP
+	uniform mat3 metalnessMapTransform;
+	varying vec2 vMetalnessMapUv;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	uniform mat3 roughnessMapTransform;
+	varying vec2 vRoughnessMapUv;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	uniform mat3 diffuseRoughnessMapTransform;
+	varying vec2 vDiffuseRoughnessMapUv;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	uniform mat3 anisotropyMapTransform;
+	varying vec2 vAnisotropyMapUv;
+#endif
+#ifdef USE_CLEARCOATMAP
+	uniform mat3 clearcoatMapTransform;
+	varying vec2 vClearcoatMapUv;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	uniform mat3 clearcoatNormalMapTransform;
+	varying vec2 vClearcoatNormalMapUv;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	uniform mat3 clearcoatRoughnessMapTransform;
+	varying vec2 vClearcoatRoughnessMapUv;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	uniform mat3 sheenColorMapTransform;
+	varying vec2 vSheenColorMapUv;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	uniform mat3 sheenRoughnessMapTransform;
+	varying vec2 vSheenRoughnessMapUv;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	uniform mat3 iridescenceMapTransform;
+	varying vec2 vIridescenceMapUv;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	uniform mat3 iridescenceThicknessMapTransform;
+	varying vec2 vIridescenceThicknessMapUv;
+#endif
+#ifdef USE_SPECULARMAP
+	uniform mat3 specularMapTransform;
+	varying vec2 vSpecularMapUv;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	uniform mat3 specularColorMapTransform;
+	varying vec2 vSpecularColorMapUv;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	uniform mat3 specularIntensityMapTransform;
+	varying vec2 vSpecularIntensityMapUv;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	uniform mat3 transmissionMapTransform;
+	varying vec2 vTransmissionMapUv;
+#endif
+#ifdef USE_THICKNESSMAP
+	uniform mat3 thicknessMapTransform;
+	varying vec2 vThicknessMapUv;
+#endif`,zy=`#if defined( USE_UV ) || defined( USE_ANISOTROPY )
+	vUv = vec3( uv, 1 ).xy;
+#endif
+#ifdef USE_MAP
+	vMapUv = ( mapTransform * vec3( MAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ALPHAMAP
+	vAlphaMapUv = ( alphaMapTransform * vec3( ALPHAMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_LIGHTMAP
+	vLightMapUv = ( lightMapTransform * vec3( LIGHTMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_AOMAP
+	vAoMapUv = ( aoMapTransform * vec3( AOMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_BUMPMAP
+	vBumpMapUv = ( bumpMapTransform * vec3( BUMPMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_NORMALMAP
+	vNormalMapUv = ( normalMapTransform * vec3( NORMALMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_DISPLACEMENTMAP
+	vDisplacementMapUv = ( displacementMapTransform * vec3( DISPLACEMENTMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_EMISSIVEMAP
+	vEmissiveMapUv = ( emissiveMapTransform * vec3( EMISSIVEMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_METALNESSMAP
+	vMetalnessMapUv = ( metalnessMapTransform * vec3( METALNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ROUGHNESSMAP
+	vRoughnessMapUv = ( roughnessMapTransform * vec3( ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESSMAP
+	vDiffuseRoughnessMapUv = ( diffuseRoughnessMapTransform * vec3( DIFFUSE_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_ANISOTROPYMAP
+	vAnisotropyMapUv = ( anisotropyMapTransform * vec3( ANISOTROPYMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOATMAP
+	vClearcoatMapUv = ( clearcoatMapTransform * vec3( CLEARCOATMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOAT_NORMALMAP
+	vClearcoatNormalMapUv = ( clearcoatNormalMapTransform * vec3( CLEARCOAT_NORMALMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_CLEARCOAT_ROUGHNESSMAP
+	vClearcoatRoughnessMapUv = ( clearcoatRoughnessMapTransform * vec3( CLEARCOAT_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_IRIDESCENCEMAP
+	vIridescenceMapUv = ( iridescenceMapTransform * vec3( IRIDESCENCEMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_IRIDESCENCE_THICKNESSMAP
+	vIridescenceThicknessMapUv = ( iridescenceThicknessMapTransform * vec3( IRIDESCENCE_THICKNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SHEEN_COLORMAP
+	vSheenColorMapUv = ( sheenColorMapTransform * vec3( SHEEN_COLORMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SHEEN_ROUGHNESSMAP
+	vSheenRoughnessMapUv = ( sheenRoughnessMapTransform * vec3( SHEEN_ROUGHNESSMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULARMAP
+	vSpecularMapUv = ( specularMapTransform * vec3( SPECULARMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULAR_COLORMAP
+	vSpecularColorMapUv = ( specularColorMapTransform * vec3( SPECULAR_COLORMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_SPECULAR_INTENSITYMAP
+	vSpecularIntensityMapUv = ( specularIntensityMapTransform * vec3( SPECULAR_INTENSITYMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_TRANSMISSIONMAP
+	vTransmissionMapUv = ( transmissionMapTransform * vec3( TRANSMISSIONMAP_UV, 1 ) ).xy;
+#endif
+#ifdef USE_THICKNESSMAP
+	vThicknessMapUv = ( thicknessMapTransform * vec3( THICKNESSMAP_UV, 1 ) ).xy;
+#endif`,Gy=`#if defined( USE_ENVMAP ) || defined( DISTANCE ) || defined ( USE_SHADOWMAP ) || defined ( USE_TRANSMISSION ) || NUM_SPOT_LIGHT_COORDS > 0
+	vec4 worldPosition = vec4( transformed, 1.0 );
+	#ifdef USE_BATCHING
+		worldPosition = batchingMatrix * worldPosition;
+	#endif
+	#ifdef USE_INSTANCING
+		worldPosition = instanceMatrix * worldPosition;
+	#endif
+	worldPosition = modelMatrix * worldPosition;
+#endif`,Vy=`varying vec2 vUv;
+uniform mat3 uvTransform;
+void main() {
+	vUv = ( uvTransform * vec3( uv, 1 ) ).xy;
+	gl_Position = vec4( position.xy, 1.0, 1.0 );
+}`,Hy=`uniform sampler2D t2D;
+uniform float backgroundIntensity;
+varying vec2 vUv;
+void main() {
+	vec4 texColor = texture2D( t2D, vUv );
+	#ifdef DECODE_VIDEO_TEXTURE
+		texColor = vec4( mix( pow( texColor.rgb * 0.9478672986 + vec3( 0.0521327014 ), vec3( 2.4 ) ), texColor.rgb * 0.0773993808, vec3( lessThanEqual( texColor.rgb, vec3( 0.04045 ) ) ) ), texColor.w );
+	#endif
+	texColor.rgb *= backgroundIntensity;
+	gl_FragColor = texColor;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,Wy=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+	gl_Position.z = gl_Position.w;
+}`,Xy=`uniform float backgroundBlurriness;
+uniform float backgroundIntensity;
+uniform mat3 backgroundRotation;
+varying vec3 vWorldDirection;
+#include <envmap_common_pars_fragment>
+void main() {
+	#ifdef ENVMAP_TYPE_PMREM
+		vec4 texColor = textureLod( envMap, backgroundRotation * vWorldDirection, roughnessToMip( backgroundBlurriness ) );
+	#else
+		vec4 texColor = textureCube( envMap, backgroundRotation * vWorldDirection );
+	#endif
+	texColor.rgb *= backgroundIntensity;
+	gl_FragColor = texColor;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,$y=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+	gl_Position.z = gl_Position.w;
+}`,qy=`uniform samplerCube tCube;
+uniform float tFlip;
+uniform float opacity;
+varying vec3 vWorldDirection;
+void main() {
+	vec4 texColor = textureCube( tCube, vec3( tFlip * vWorldDirection.x, vWorldDirection.yz ) );
+	gl_FragColor = texColor;
+	gl_FragColor.a *= opacity;
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,Yy=`#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+varying vec2 vHighPrecisionZW;
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <skinbase_vertex>
+	#include <morphinstance_vertex>
+	#ifdef USE_DISPLACEMENTMAP
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vHighPrecisionZW = gl_Position.zw;
+}`,jy=`#if DEPTH_PACKING == 3200
+	uniform float opacity;
+#endif
+#include <common>
+#include <packing>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+varying vec2 vHighPrecisionZW;
+void main() {
+	vec4 diffuseColor = vec4( 1.0 );
+	#include <clipping_planes_fragment>
+	#if DEPTH_PACKING == 3200
+		diffuseColor.a = opacity;
+	#endif
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <logdepthbuf_fragment>
+	#ifdef USE_REVERSED_DEPTH_BUFFER
+		float fragCoordZ = vHighPrecisionZW[ 0 ] / vHighPrecisionZW[ 1 ];
+	#else
+		float fragCoordZ = 0.5 * vHighPrecisionZW[ 0 ] / vHighPrecisionZW[ 1 ] + 0.5;
+	#endif
+	#if DEPTH_PACKING == 3200
+		gl_FragColor = vec4( vec3( 1.0 - fragCoordZ ), opacity );
+	#elif DEPTH_PACKING == 3201
+		gl_FragColor = packDepthToRGBA( fragCoordZ );
+	#elif DEPTH_PACKING == 3202
+		gl_FragColor = vec4( packDepthToRGB( fragCoordZ ), 1.0 );
+	#elif DEPTH_PACKING == 3203
+		gl_FragColor = vec4( packDepthToRG( fragCoordZ ), 0.0, 1.0 );
+	#endif
+}`,Jy=`#define DISTANCE
+varying vec3 vWorldPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <skinbase_vertex>
+	#include <morphinstance_vertex>
+	#ifdef USE_DISPLACEMENTMAP
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <worldpos_vertex>
+	#include <clipping_planes_vertex>
+	vWorldPosition = worldPosition.xyz;
+}`,Zy=`#define DISTANCE
+uniform vec3 referencePosition;
+uniform float nearDistance;
+uniform float farDistance;
+varying vec3 vWorldPosition;
+#include <common>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( 1.0 );
+	#include <clipping_planes_fragment>
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	float dist = length( vWorldPosition - referencePosition );
+	dist = ( dist - nearDistance ) / ( farDistance - nearDistance );
+	dist = saturate( dist );
+	gl_FragColor = vec4( dist, 0.0, 0.0, 1.0 );
+}`,Ky=`varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vWorldDirection = transformDirection( position, modelMatrix );
+	#include <begin_vertex>
+	#include <project_vertex>
+}`,Qy=`uniform sampler2D tEquirect;
+varying vec3 vWorldDirection;
+#include <common>
+void main() {
+	vec3 direction = normalize( vWorldDirection );
+	vec2 sampleUV = equirectUv( direction );
+	gl_FragColor = texture2D( tEquirect, sampleUV );
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+}`,ex=`uniform float scale;
+attribute float lineDistance;
+varying float vLineDistance;
+#include <common>
+#include <uv_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	vLineDistance = scale * lineDistance;
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+}`,tx=`uniform vec3 diffuse;
+uniform float opacity;
+uniform float dashSize;
+uniform float totalSize;
+varying float vLineDistance;
+#include <common>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	if ( mod( vLineDistance, totalSize ) > dashSize ) {
+		discard;
+	}
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,nx=`#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#if defined ( USE_ENVMAP ) || defined ( USE_SKINNING )
+		#include <beginnormal_vertex>
+		#include <morphnormal_vertex>
+		#include <skinbase_vertex>
+		#include <skinnormal_vertex>
+		#include <defaultnormal_vertex>
+	#endif
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <fog_vertex>
+}`,ix=`uniform vec3 diffuse;
+uniform float opacity;
+#ifndef FLAT_SHADED
+	varying vec3 vNormal;
+#endif
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <fog_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	#ifdef USE_LIGHTMAP
+		vec4 lightMapTexel = texture2D( lightMap, vLightMapUv );
+		reflectedLight.indirectDiffuse += lightMapTexel.rgb * lightMapIntensity * RECIPROCAL_PI;
+	#else
+		reflectedLight.indirectDiffuse += vec3( 1.0 );
+	#endif
+	#include <aomap_fragment>
+	reflectedLight.indirectDiffuse *= diffuseColor.rgb;
+	vec3 outgoingLight = reflectedLight.indirectDiffuse;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,rx=`#define LAMBERT
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,sx=`#define LAMBERT
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_lambert_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_lambert_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + totalEmissiveRadiance;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,ax=`#define MATCAP
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <color_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+	vViewPosition = - mvPosition.xyz;
+}`,ox=`#define MATCAP
+uniform vec3 diffuse;
+uniform float opacity;
+uniform sampler2D matcap;
+varying vec3 vViewPosition;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <normal_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	vec3 viewDir = normalize( vViewPosition );
+	vec3 x = normalize( vec3( viewDir.z, 0.0, - viewDir.x ) );
+	vec3 y = cross( viewDir, x );
+	vec2 uv = vec2( dot( x, normal ), dot( y, normal ) ) * 0.495 + 0.5;
+	#ifdef USE_MATCAP
+		vec4 matcapColor = texture2D( matcap, uv );
+	#else
+		vec4 matcapColor = vec4( vec3( mix( 0.2, 0.8, uv.y ) ), 1.0 );
+	#endif
+	vec3 outgoingLight = diffuseColor.rgb * matcapColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,lx=`#define NORMAL
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	varying vec3 vViewPosition;
+#endif
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	vViewPosition = - mvPosition.xyz;
+#endif
+}`,cx=`#define NORMAL
+uniform float opacity;
+#if defined( FLAT_SHADED ) || defined( USE_BUMPMAP ) || defined( USE_NORMALMAP_TANGENTSPACE )
+	varying vec3 vViewPosition;
+#endif
+#include <uv_pars_fragment>
+#include <normal_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( 0.0, 0.0, 0.0, opacity );
+	#include <clipping_planes_fragment>
+	#include <logdepthbuf_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	gl_FragColor = vec4( normalize( normal ) * 0.5 + 0.5, diffuseColor.a );
+	#ifdef OPAQUE
+		gl_FragColor.a = 1.0;
+	#endif
+}`,hx=`#define PHONG
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <envmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <envmap_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,ux=`#define PHONG
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform vec3 specular;
+uniform float shininess;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_phong_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <specularmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <specularmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_phong_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + reflectedLight.directSpecular + reflectedLight.indirectSpecular + totalEmissiveRadiance;
+	#include <envmap_fragment>
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,dx=`#define STANDARD
+varying vec3 vViewPosition;
+#ifdef USE_TRANSMISSION
+	varying vec3 vWorldPosition;
+#endif
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+#ifdef USE_TRANSMISSION
+	vWorldPosition = worldPosition.xyz;
+#endif
+}`,fx=`#define STANDARD
+#ifdef PHYSICAL
+	#define IOR
+	#define USE_SPECULAR
+#endif
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float roughness;
+uniform float metalness;
+uniform float opacity;
+#ifdef IOR
+	uniform float ior;
+#endif
+#ifdef USE_SPECULAR
+	uniform float specularIntensity;
+	uniform vec3 specularColor;
+	#ifdef USE_SPECULAR_COLORMAP
+		uniform sampler2D specularColorMap;
+	#endif
+	#ifdef USE_SPECULAR_INTENSITYMAP
+		uniform sampler2D specularIntensityMap;
+	#endif
+#endif
+#ifdef USE_CLEARCOAT
+	uniform float clearcoat;
+	uniform float clearcoatRoughness;
+#endif
+#ifdef USE_DIFFUSE_ROUGHNESS
+	uniform float diffuseRoughness;
+	#ifdef USE_DIFFUSE_ROUGHNESSMAP
+		uniform sampler2D diffuseRoughnessMap;
+	#endif
+#endif
+#ifdef USE_DISPERSION
+	uniform float dispersion;
+#endif
+#ifdef USE_RETROREFLECTION
+	uniform float retroreflectivity;
+#endif
+#ifdef USE_IRIDESCENCE
+	uniform float iridescence;
+	uniform float iridescenceIOR;
+	uniform float iridescenceThicknessMinimum;
+	uniform float iridescenceThicknessMaximum;
+#endif
+#ifdef USE_SHEEN
+	uniform vec3 sheenColor;
+	uniform float sheenRoughness;
+	#ifdef USE_SHEEN_COLORMAP
+		uniform sampler2D sheenColorMap;
+	#endif
+	#ifdef USE_SHEEN_ROUGHNESSMAP
+		uniform sampler2D sheenRoughnessMap;
+	#endif
+#endif
+#ifdef USE_ANISOTROPY
+	uniform vec2 anisotropyVector;
+	#ifdef USE_ANISOTROPYMAP
+		uniform sampler2D anisotropyMap;
+	#endif
+#endif
+varying vec3 vViewPosition;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <iridescence_fragment>
+#include <envmap_common_pars_fragment>
+#include <envmap_physical_pars_fragment>
+#include <fog_pars_fragment>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_physical_pars_fragment>
+#include <transmission_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <clearcoat_pars_fragment>
+#include <iridescence_pars_fragment>
+#include <roughnessmap_pars_fragment>
+#include <metalnessmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <roughnessmap_fragment>
+	#include <metalnessmap_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <clearcoat_normal_fragment_begin>
+	#include <clearcoat_normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_physical_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 totalDiffuse = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse;
+	vec3 totalSpecular = reflectedLight.directSpecular + reflectedLight.indirectSpecular;
+	#include <transmission_fragment>
+	vec3 outgoingLight = totalDiffuse + totalSpecular + totalEmissiveRadiance;
+	#ifdef USE_SHEEN
+ 
+		outgoingLight = outgoingLight + sheenSpecularDirect + sheenSpecularIndirect;
+ 
+ 	#endif
+	#ifdef USE_CLEARCOAT
+		float dotNVcc = saturate( dot( geometryClearcoatNormal, geometryViewDir ) );
+		vec3 Fcc = F_Schlick( material.clearcoatF0, material.clearcoatF90, dotNVcc );
+		outgoingLight = outgoingLight * ( 1.0 - material.clearcoat * Fcc ) + ( clearcoatSpecularDirect + clearcoatSpecularIndirect ) * material.clearcoat;
+	#endif
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,px=`#define TOON
+varying vec3 vViewPosition;
+#include <common>
+#include <batching_pars_vertex>
+#include <uv_pars_vertex>
+#include <displacementmap_pars_vertex>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <normal_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <shadowmap_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <normal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <displacementmap_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	vViewPosition = - mvPosition.xyz;
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,mx=`#define TOON
+uniform vec3 diffuse;
+uniform vec3 emissive;
+uniform float opacity;
+#include <common>
+#include <dithering_pars_fragment>
+#include <color_pars_fragment>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <aomap_pars_fragment>
+#include <lightmap_pars_fragment>
+#include <emissivemap_pars_fragment>
+#include <gradientmap_pars_fragment>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <normal_pars_fragment>
+#include <lights_toon_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <bumpmap_pars_fragment>
+#include <normalmap_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	ReflectedLight reflectedLight = ReflectedLight( vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ), vec3( 0.0 ) );
+	vec3 totalEmissiveRadiance = emissive;
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <color_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	#include <normal_fragment_begin>
+	#include <normal_fragment_maps>
+	#include <emissivemap_fragment>
+	#include <lights_toon_fragment>
+	#include <lights_fragment_begin>
+	#include <lights_fragment_maps>
+	#include <lights_fragment_end>
+	#include <aomap_fragment>
+	vec3 outgoingLight = reflectedLight.directDiffuse + reflectedLight.indirectDiffuse + totalEmissiveRadiance;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+	#include <dithering_fragment>
+}`,gx=`uniform float size;
+uniform float scale;
+#include <common>
+#include <color_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+#ifdef USE_POINTS_UV
+	varying vec2 vUv;
+	uniform mat3 uvTransform;
+#endif
+void main() {
+	#ifdef USE_POINTS_UV
+		vUv = ( uvTransform * vec3( uv, 1 ) ).xy;
+	#endif
+	#include <color_vertex>
+	#include <morphinstance_vertex>
+	#include <morphcolor_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <project_vertex>
+	gl_PointSize = size;
+	#ifdef USE_SIZEATTENUATION
+		bool isPerspective = isPerspectiveMatrix( projectionMatrix );
+		if ( isPerspective ) gl_PointSize *= ( scale / - mvPosition.z );
+	#endif
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <worldpos_vertex>
+	#include <fog_vertex>
+}`,_x=`uniform vec3 diffuse;
+uniform float opacity;
+#include <common>
+#include <color_pars_fragment>
+#include <map_particle_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_particle_fragment>
+	#include <color_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,vx=`#include <common>
+#include <batching_pars_vertex>
+#include <fog_pars_vertex>
+#include <morphtarget_pars_vertex>
+#include <skinning_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <shadowmap_pars_vertex>
+void main() {
+	#include <batching_vertex>
+	#include <beginnormal_vertex>
+	#include <morphinstance_vertex>
+	#include <morphnormal_vertex>
+	#include <skinbase_vertex>
+	#include <skinnormal_vertex>
+	#include <defaultnormal_vertex>
+	#include <begin_vertex>
+	#include <morphtarget_vertex>
+	#include <skinning_vertex>
+	#include <project_vertex>
+	#include <logdepthbuf_vertex>
+	#include <worldpos_vertex>
+	#include <shadowmap_vertex>
+	#include <fog_vertex>
+}`,yx=`uniform vec3 color;
+uniform float opacity;
+#include <common>
+#include <fog_pars_fragment>
+#include <bsdfs>
+#include <lights_pars_begin>
+#include <logdepthbuf_pars_fragment>
+#include <shadowmap_pars_fragment>
+#include <shadowmask_pars_fragment>
+void main() {
+	#include <logdepthbuf_fragment>
+	gl_FragColor = vec4( color, opacity * ( 1.0 - getShadowMask() ) );
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+	#include <premultiplied_alpha_fragment>
+}`,xx=`uniform float rotation;
+uniform vec2 center;
+#include <common>
+#include <uv_pars_vertex>
+#include <fog_pars_vertex>
+#include <logdepthbuf_pars_vertex>
+#include <clipping_planes_pars_vertex>
+void main() {
+	#include <uv_vertex>
+	vec4 mvPosition = modelViewMatrix[ 3 ];
+	vec2 scale = vec2( length( modelMatrix[ 0 ].xyz ), length( modelMatrix[ 1 ].xyz ) );
+	#ifndef USE_SIZEATTENUATION
+		bool isPerspective = isPerspectiveMatrix( projectionMatrix );
+		if ( isPerspective ) scale *= - mvPosition.z;
+	#endif
+	vec2 alignedPosition = ( position.xy - ( center - vec2( 0.5 ) ) ) * scale;
+	vec2 rotatedPosition;
+	rotatedPosition.x = cos( rotation ) * alignedPosition.x - sin( rotation ) * alignedPosition.y;
+	rotatedPosition.y = sin( rotation ) * alignedPosition.x + cos( rotation ) * alignedPosition.y;
+	mvPosition.xy += rotatedPosition;
+	gl_Position = projectionMatrix * mvPosition;
+	#include <logdepthbuf_vertex>
+	#include <clipping_planes_vertex>
+	#include <fog_vertex>
+}`,Sx=`uniform vec3 diffuse;
+uniform float opacity;
+#include <common>
+#include <uv_pars_fragment>
+#include <map_pars_fragment>
+#include <alphamap_pars_fragment>
+#include <alphatest_pars_fragment>
+#include <alphahash_pars_fragment>
+#include <fog_pars_fragment>
+#include <logdepthbuf_pars_fragment>
+#include <clipping_planes_pars_fragment>
+void main() {
+	vec4 diffuseColor = vec4( diffuse, opacity );
+	#include <clipping_planes_fragment>
+	vec3 outgoingLight = vec3( 0.0 );
+	#include <logdepthbuf_fragment>
+	#include <map_fragment>
+	#include <alphamap_fragment>
+	#include <alphatest_fragment>
+	#include <alphahash_fragment>
+	outgoingLight = diffuseColor.rgb;
+	#include <opaque_fragment>
+	#include <tonemapping_fragment>
+	#include <colorspace_fragment>
+	#include <fog_fragment>
+}`,mt={alphahash_fragment:H0,alphahash_pars_fragment:W0,alphamap_fragment:X0,alphamap_pars_fragment:$0,alphatest_fragment:q0,alphatest_pars_fragment:Y0,aomap_fragment:j0,aomap_pars_fragment:J0,batching_pars_vertex:Z0,batching_vertex:K0,begin_vertex:Q0,beginnormal_vertex:ev,bsdfs:tv,iridescence_fragment:nv,bumpmap_pars_fragment:iv,clipping_planes_fragment:rv,clipping_planes_pars_fragment:sv,clipping_planes_pars_vertex:av,clipping_planes_vertex:ov,color_fragment:lv,color_pars_fragment:cv,color_pars_vertex:hv,color_vertex:uv,common:dv,defaultnormal_vertex:fv,displacementmap_pars_vertex:pv,displacementmap_vertex:mv,emissivemap_fragment:gv,emissivemap_pars_fragment:_v,colorspace_fragment:vv,colorspace_pars_fragment:yv,envmap_fragment:xv,envmap_common_pars_fragment:Sv,envmap_pars_fragment:Mv,envmap_pars_vertex:bv,envmap_physical_pars_fragment:Fv,envmap_vertex:wv,fog_vertex:Ev,fog_pars_vertex:Tv,fog_fragment:Av,fog_pars_fragment:Cv,gradientmap_pars_fragment:Rv,lightmap_pars_fragment:Pv,lights_lambert_fragment:Iv,lights_lambert_pars_fragment:Lv,lights_pars_begin:Dv,lights_toon_fragment:Nv,lights_toon_pars_fragment:Uv,lights_phong_fragment:Ov,lights_phong_pars_fragment:Bv,lights_physical_fragment:kv,lights_physical_pars_fragment:zv,lights_fragment_begin:Gv,lights_fragment_maps:Vv,lights_fragment_end:Hv,lightprobes_pars_fragment:Wv,logdepthbuf_fragment:Xv,logdepthbuf_pars_fragment:$v,logdepthbuf_pars_vertex:qv,logdepthbuf_vertex:Yv,map_fragment:jv,map_pars_fragment:Jv,map_particle_fragment:Zv,map_particle_pars_fragment:Kv,metalnessmap_fragment:Qv,metalnessmap_pars_fragment:ey,morphinstance_vertex:ty,morphcolor_vertex:ny,morphnormal_vertex:iy,morphtarget_pars_vertex:ry,morphtarget_vertex:sy,normal_fragment_begin:ay,normal_fragment_maps:oy,normal_pars_fragment:ly,normal_pars_vertex:cy,normal_vertex:hy,normalmap_pars_fragment:uy,clearcoat_normal_fragment_begin:dy,clearcoat_normal_fragment_maps:fy,clearcoat_pars_fragment:py,iridescence_pars_fragment:my,opaque_fragment:gy,packing:_y,premultiplied_alpha_fragment:vy,project_vertex:yy,dithering_fragment:xy,dithering_pars_fragment:Sy,roughnessmap_fragment:My,roughnessmap_pars_fragment:by,shadowmap_pars_fragment:wy,shadowmap_pars_vertex:Ey,shadowmap_vertex:Ty,shadowmask_pars_fragment:Ay,skinbase_vertex:Cy,skinning_pars_vertex:Ry,skinning_vertex:Py,skinnormal_vertex:Iy,specularmap_fragment:Ly,specularmap_pars_fragment:Dy,tonemapping_fragment:Fy,tonemapping_pars_fragment:Ny,transmission_fragment:Uy,transmission_pars_fragment:Oy,uv_pars_fragment:By,uv_pars_vertex:ky,uv_vertex:zy,worldpos_vertex:Gy,background_vert:Vy,background_frag:Hy,backgroundCube_vert:Wy,backgroundCube_frag:Xy,cube_vert:$y,cube_frag:qy,depth_vert:Yy,depth_frag:jy,distance_vert:Jy,distance_frag:Zy,equirect_vert:Ky,equirect_frag:Qy,linedashed_vert:ex,linedashed_frag:tx,meshbasic_vert:nx,meshbasic_frag:ix,meshlambert_vert:rx,meshlambert_frag:sx,meshmatcap_vert:ax,meshmatcap_frag:ox,meshnormal_vert:lx,meshnormal_frag:cx,meshphong_vert:hx,meshphong_frag:ux,meshphysical_vert:dx,meshphysical_frag:fx,meshtoon_vert:px,meshtoon_frag:mx,points_vert:gx,points_frag:_x,shadow_vert:vx,shadow_frag:yx,sprite_vert:xx,sprite_frag:Sx},Be={common:{diffuse:{value:new ut(16777215)},opacity:{value:1},map:{value:null},mapTransform:{value:new at},alphaMap:{value:null},alphaMapTransform:{value:new at},alphaTest:{value:0}},specularmap:{specularMap:{value:null},specularMapTransform:{value:new at}},envmap:{envMap:{value:null},envMapRotation:{value:new at},reflectivity:{value:1},ior:{value:1.5},refractionRatio:{value:.98},dfgLUT:{value:null}},aomap:{aoMap:{value:null},aoMapIntensity:{value:1},aoMapTransform:{value:new at}},lightmap:{lightMap:{value:null},lightMapIntensity:{value:1},lightMapTransform:{value:new at}},bumpmap:{bumpMap:{value:null},bumpMapTransform:{value:new at},bumpScale:{value:1}},normalmap:{normalMap:{value:null},normalMapTransform:{value:new at},normalScale:{value:new gt(1,1)}},displacementmap:{displacementMap:{value:null},displacementMapTransform:{value:new at},displacementScale:{value:1},displacementBias:{value:0}},emissivemap:{emissiveMap:{value:null},emissiveMapTransform:{value:new at}},metalnessmap:{metalnessMap:{value:null},metalnessMapTransform:{value:new at}},roughnessmap:{roughnessMap:{value:null},roughnessMapTransform:{value:new at}},gradientmap:{gradientMap:{value:null}},fog:{fogDensity:{value:25e-5},fogNear:{value:1},fogFar:{value:2e3},fogColor:{value:new ut(16777215)}},lights:{ambientLightColor:{value:[]},lightProbe:{value:[]},sunLights:{value:[],properties:{direction:{},color:{}}},sunLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},sunShadowMatrix:{value:[]},sunShadowCascade:{value:[]},directionalLights:{value:[],properties:{direction:{},color:{}}},directionalLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},directionalShadowMatrix:{value:[]},spotLights:{value:[],properties:{color:{},position:{},direction:{},distance:{},coneCos:{},penumbraCos:{},decay:{}}},spotLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{}}},spotLightMap:{value:[]},spotLightMatrix:{value:[]},pointLights:{value:[],properties:{color:{},position:{},decay:{},distance:{}}},pointLightShadows:{value:[],properties:{shadowIntensity:1,shadowBias:{},shadowNormalBias:{},shadowRadius:{},shadowMapSize:{},shadowCameraNear:{},shadowCameraFar:{}}},pointShadowMatrix:{value:[]},hemisphereLights:{value:[],properties:{direction:{},skyColor:{},groundColor:{}}},rectAreaLights:{value:[],properties:{color:{},position:{},width:{},height:{}}},ltc_1:{value:null},ltc_2:{value:null},probesSH:{value:[]},probesMin:{value:[]},probesMax:{value:[]},probesResolution:{value:[]}},points:{diffuse:{value:new ut(16777215)},opacity:{value:1},size:{value:1},scale:{value:1},map:{value:null},alphaMap:{value:null},alphaMapTransform:{value:new at},alphaTest:{value:0},uvTransform:{value:new at}},sprite:{diffuse:{value:new ut(16777215)},opacity:{value:1},center:{value:new gt(.5,.5)},rotation:{value:0},map:{value:null},mapTransform:{value:new at},alphaMap:{value:null},alphaMapTransform:{value:new at},alphaTest:{value:0}}},ai={basic:{uniforms:dn([Be.common,Be.specularmap,Be.envmap,Be.aomap,Be.lightmap,Be.fog]),vertexShader:mt.meshbasic_vert,fragmentShader:mt.meshbasic_frag},lambert:{uniforms:dn([Be.common,Be.specularmap,Be.envmap,Be.aomap,Be.lightmap,Be.emissivemap,Be.bumpmap,Be.normalmap,Be.displacementmap,Be.fog,Be.lights,{emissive:{value:new ut(0)},envMapIntensity:{value:1}}]),vertexShader:mt.meshlambert_vert,fragmentShader:mt.meshlambert_frag},phong:{uniforms:dn([Be.common,Be.specularmap,Be.envmap,Be.aomap,Be.lightmap,Be.emissivemap,Be.bumpmap,Be.normalmap,Be.displacementmap,Be.fog,Be.lights,{emissive:{value:new ut(0)},specular:{value:new ut(1118481)},shininess:{value:30},envMapIntensity:{value:1}}]),vertexShader:mt.meshphong_vert,fragmentShader:mt.meshphong_frag},standard:{uniforms:dn([Be.common,Be.envmap,Be.aomap,Be.lightmap,Be.emissivemap,Be.bumpmap,Be.normalmap,Be.displacementmap,Be.roughnessmap,Be.metalnessmap,Be.fog,Be.lights,{emissive:{value:new ut(0)},roughness:{value:1},metalness:{value:0},envMapIntensity:{value:1}}]),vertexShader:mt.meshphysical_vert,fragmentShader:mt.meshphysical_frag},toon:{uniforms:dn([Be.common,Be.aomap,Be.lightmap,Be.emissivemap,Be.bumpmap,Be.normalmap,Be.displacementmap,Be.gradientmap,Be.fog,Be.lights,{emissive:{value:new ut(0)}}]),vertexShader:mt.meshtoon_vert,fragmentShader:mt.meshtoon_frag},matcap:{uniforms:dn([Be.common,Be.bumpmap,Be.normalmap,Be.displacementmap,Be.fog,{matcap:{value:null}}]),vertexShader:mt.meshmatcap_vert,fragmentShader:mt.meshmatcap_frag},points:{uniforms:dn([Be.points,Be.fog]),vertexShader:mt.points_vert,fragmentShader:mt.points_frag},dashed:{uniforms:dn([Be.common,Be.fog,{scale:{value:1},dashSize:{value:1},totalSize:{value:2}}]),vertexShader:mt.linedashed_vert,fragmentShader:mt.linedashed_frag},depth:{uniforms:dn([Be.common,Be.displacementmap]),vertexShader:mt.depth_vert,fragmentShader:mt.depth_frag},normal:{uniforms:dn([Be.common,Be.bumpmap,Be.normalmap,Be.displacementmap,{opacity:{value:1}}]),vertexShader:mt.meshnormal_vert,fragmentShader:mt.meshnormal_frag},sprite:{uniforms:dn([Be.sprite,Be.fog]),vertexShader:mt.sprite_vert,fragmentShader:mt.sprite_frag},background:{uniforms:{uvTransform:{value:new at},t2D:{value:null},backgroundIntensity:{value:1}},vertexShader:mt.background_vert,fragmentShader:mt.background_frag},backgroundCube:{uniforms:{envMap:{value:null},backgroundBlurriness:{value:0},backgroundIntensity:{value:1},backgroundRotation:{value:new at}},vertexShader:mt.backgroundCube_vert,fragmentShader:mt.backgroundCube_frag},cube:{uniforms:{tCube:{value:null},tFlip:{value:-1},opacity:{value:1}},vertexShader:mt.cube_vert,fragmentShader:mt.cube_frag},equirect:{uniforms:{tEquirect:{value:null}},vertexShader:mt.equirect_vert,fragmentShader:mt.equirect_frag},distance:{uniforms:dn([Be.common,Be.displacementmap,{referencePosition:{value:new Q},nearDistance:{value:1},farDistance:{value:1e3}}]),vertexShader:mt.distance_vert,fragmentShader:mt.distance_frag},shadow:{uniforms:dn([Be.lights,Be.fog,{color:{value:new ut(0)},opacity:{value:1}}]),vertexShader:mt.shadow_vert,fragmentShader:mt.shadow_frag}};ai.physical={uniforms:dn([ai.standard.uniforms,{clearcoat:{value:0},clearcoatMap:{value:null},clearcoatMapTransform:{value:new at},clearcoatNormalMap:{value:null},clearcoatNormalMapTransform:{value:new at},clearcoatNormalScale:{value:new gt(1,1)},clearcoatRoughness:{value:0},clearcoatRoughnessMap:{value:null},clearcoatRoughnessMapTransform:{value:new at},diffuseRoughness:{value:0},diffuseRoughnessMap:{value:null},diffuseRoughnessMapTransform:{value:new at},dispersion:{value:0},retroreflectivity:{value:0},iridescence:{value:0},iridescenceMap:{value:null},iridescenceMapTransform:{value:new at},iridescenceIOR:{value:1.3},iridescenceThicknessMinimum:{value:100},iridescenceThicknessMaximum:{value:400},iridescenceThicknessMap:{value:null},iridescenceThicknessMapTransform:{value:new at},sheen:{value:0},sheenColor:{value:new ut(0)},sheenColorMap:{value:null},sheenColorMapTransform:{value:new at},sheenRoughness:{value:1},sheenRoughnessMap:{value:null},sheenRoughnessMapTransform:{value:new at},transmission:{value:0},transmissionMap:{value:null},transmissionMapTransform:{value:new at},transmissionSamplerSize:{value:new gt},transmissionSamplerMap:{value:null},thickness:{value:0},thicknessMap:{value:null},thicknessMapTransform:{value:new at},attenuationDistance:{value:0},attenuationColor:{value:new ut(0)},specularColor:{value:new ut(1,1,1)},specularColorMap:{value:null},specularColorMapTransform:{value:new at},specularIntensity:{value:1},specularIntensityMap:{value:null},specularIntensityMapTransform:{value:new at},anisotropyVector:{value:new gt},anisotropyMap:{value:null},anisotropyMapTransform:{value:new at}}]),vertexShader:mt.meshphysical_vert,fragmentShader:mt.meshphysical_frag};var Yo={r:0,b:0,g:0},Mx=new It,xd=new at;xd.set(-1,0,0,0,1,0,0,0,1);function bx(i,e,t,n,s,o){let c=new ut(0),h=s===!0?0:1,f,d,m=null,v=0,g=null;function S(I){let O=I.isScene===!0?I.background:null;if(O&&O.isTexture){let P=I.backgroundBlurriness>0;O=e.get(O,P)}return O}function w(I){let O=!1,P=S(I);P===null?x(c,h):P&&P.isColor&&(x(P,1),O=!0);let U=i.xr.getEnvironmentBlendMode();U==="additive"?t.buffers.color.setClear(0,0,0,1,o):U==="alpha-blend"&&t.buffers.color.setClear(0,0,0,0,o),(i.autoClear||O)&&(t.buffers.depth.setTest(!0),t.buffers.depth.setMask(!0),t.buffers.color.setMask(!0),i.clear(i.autoClearColor,i.autoClearDepth,i.autoClearStencil))}function R(I,O){let P=S(O);P&&P.isCubeTexture?(d===void 0&&(d=new Ln(new Ii(1,1,1),new ni({name:"BackgroundCubeMaterial",uniforms:ir(ai.backgroundCube.uniforms),vertexShader:ai.backgroundCube.vertexShader,fragmentShader:ai.backgroundCube.fragmentShader,side:vn,depthTest:!1,depthWrite:!1,fog:!1,allowOverride:!1})),d.geometry.deleteAttribute("normal"),d.geometry.deleteAttribute("uv"),d.onBeforeRender=function(U,N,b){this.matrixWorld.copyPosition(b.matrixWorld)},Object.defineProperty(d.material,"envMap",{get:function(){return this.uniforms.envMap.value}}),n.update(d)),d.material.uniforms.envMap.value=P,d.material.uniforms.backgroundBlurriness.value=O.backgroundBlurriness,d.material.uniforms.backgroundIntensity.value=O.backgroundIntensity,d.material.uniforms.backgroundRotation.value.setFromMatrix4(Mx.makeRotationFromEuler(O.backgroundRotation)).transpose(),P.isRenderTargetTexture===!1&&d.material.uniforms.backgroundRotation.value.premultiply(xd),d.material.toneMapped=yt.getTransfer(P.colorSpace)!==Ct,(m!==P||v!==P.version||g!==i.toneMapping)&&(d.material.needsUpdate=!0,m=P,v=P.version,g=i.toneMapping),d.layers.enableAll(),I.unshift(d,d.geometry,d.material,0,0,null)):P&&P.isTexture&&(f===void 0&&(f=new Ln(new gs(2,2),new ni({name:"BackgroundMaterial",uniforms:ir(ai.background.uniforms),vertexShader:ai.background.vertexShader,fragmentShader:ai.background.fragmentShader,side:Ni,depthTest:!1,depthWrite:!1,fog:!1,allowOverride:!1})),f.geometry.deleteAttribute("normal"),Object.defineProperty(f.material,"map",{get:function(){return this.uniforms.t2D.value}}),n.update(f)),f.material.uniforms.t2D.value=P,f.material.uniforms.backgroundIntensity.value=O.backgroundIntensity,f.material.toneMapped=yt.getTransfer(P.colorSpace)!==Ct,P.matrixAutoUpdate===!0&&P.updateMatrix(),f.material.uniforms.uvTransform.value.copy(P.matrix),(m!==P||v!==P.version||g!==i.toneMapping)&&(f.material.needsUpdate=!0,m=P,v=P.version,g=i.toneMapping),f.layers.enableAll(),I.unshift(f,f.geometry,f.material,0,0,null))}function x(I,O){I.getRGB(Yo,Cc(i)),t.buffers.color.setClear(Yo.r,Yo.g,Yo.b,O,o)}function y(){d!==void 0&&(d.geometry.dispose(),d.material.dispose(),d=void 0),f!==void 0&&(f.geometry.dispose(),f.material.dispose(),f=void 0)}return{getClearColor:function(){return c},setClearColor:function(I,O=1){c.set(I),h=O,x(c,h)},getClearAlpha:function(){return h},setClearAlpha:function(I){h=I,x(c,h)},render:w,addToRenderList:R,dispose:y}}function wx(i,e){let t=i.getParameter(i.MAX_VERTEX_ATTRIBS),n={},s=g(null),o=s,c=!1;function h(Y,J,ee,z,ie){let G=!1,ne=v(Y,z,ee,J);o!==ne&&(o=ne,d(o.object)),G=S(Y,z,ee,ie),G&&w(Y,z,ee,ie),ie!==null&&e.update(ie,i.ELEMENT_ARRAY_BUFFER),(G||c)&&(c=!1,P(Y,J,ee,z),ie!==null&&i.bindBuffer(i.ELEMENT_ARRAY_BUFFER,e.get(ie).buffer))}function f(){return i.createVertexArray()}function d(Y){return i.bindVertexArray(Y)}function m(Y){return i.deleteVertexArray(Y)}function v(Y,J,ee,z){let ie=z.wireframe===!0,G=n[J.id];G===void 0&&(G={},n[J.id]=G);let ne=Y.isInstancedMesh===!0?Y.id:0,Se=G[ne];Se===void 0&&(Se={},G[ne]=Se);let re=Se[ee.id];re===void 0&&(re={},Se[ee.id]=re);let H=re[ie];return H===void 0&&(H=g(f()),re[ie]=H),H}function g(Y){let J=[],ee=[],z=[];for(let ie=0;ie<t;ie++)J[ie]=0,ee[ie]=0,z[ie]=0;return{geometry:null,program:null,wireframe:!1,newAttributes:J,enabledAttributes:ee,attributeDivisors:z,object:Y,attributes:{},index:null}}function S(Y,J,ee,z){let ie=o.attributes,G=J.attributes,ne=0,Se=ee.getAttributes();for(let re in Se)if(Se[re].location>=0){let me=ie[re],We=G[re];if(We===void 0&&(re==="instanceMatrix"&&Y.instanceMatrix&&(We=Y.instanceMatrix),re==="instanceColor"&&Y.instanceColor&&(We=Y.instanceColor)),me===void 0||me.attribute!==We||We&&me.data!==We.data)return!0;ne++}return o.attributesNum!==ne||o.index!==z}function w(Y,J,ee,z){let ie={},G=J.attributes,ne=0,Se=ee.getAttributes();for(let re in Se)if(Se[re].location>=0){let me=G[re];me===void 0&&(re==="instanceMatrix"&&Y.instanceMatrix&&(me=Y.instanceMatrix),re==="instanceColor"&&Y.instanceColor&&(me=Y.instanceColor));let We={};We.attribute=me,me&&me.data&&(We.data=me.data),ie[re]=We,ne++}o.attributes=ie,o.attributesNum=ne,o.index=z}function R(){let Y=o.newAttributes;for(let J=0,ee=Y.length;J<ee;J++)Y[J]=0}function x(Y){y(Y,0)}function y(Y,J){let ee=o.newAttributes,z=o.enabledAttributes,ie=o.attributeDivisors;ee[Y]=1,z[Y]===0&&(i.enableVertexAttribArray(Y),z[Y]=1),ie[Y]!==J&&(i.vertexAttribDivisor(Y,J),ie[Y]=J)}function I(){let Y=o.newAttributes,J=o.enabledAttributes;for(let ee=0,z=J.length;ee<z;ee++)J[ee]!==Y[ee]&&(i.disableVertexAttribArray(ee),J[ee]=0)}function O(Y,J,ee,z,ie,G,ne){ne===!0?i.vertexAttribIPointer(Y,J,ee,ie,G):i.vertexAttribPointer(Y,J,ee,z,ie,G)}function P(Y,J,ee,z){R();let ie=z.attributes,G=ee.getAttributes(),ne=J.defaultAttributeValues;for(let Se in G){let re=G[Se];if(re.location>=0){let H=ie[Se];if(H===void 0&&(Se==="instanceMatrix"&&Y.instanceMatrix&&(H=Y.instanceMatrix),Se==="instanceColor"&&Y.instanceColor&&(H=Y.instanceColor)),H!==void 0){let me=H.normalized,We=H.itemSize,nt=e.get(H);if(nt===void 0)continue;let ue=nt.buffer,Fe=nt.type,Pe=nt.bytesPerElement,Ye=Fe===i.INT||Fe===i.UNSIGNED_INT||H.gpuType===co;if(H.isInterleavedBufferAttribute){let Ue=H.data,rt=Ue.isInterleavedBuffer===!0?Ue.stride:Ue.itemSize,Gt=H.offset;if(Ue.isInstancedInterleavedBuffer||Ue.isInstancedBufferAttribute){for(let Qe=0;Qe<re.locationSize;Qe++)y(re.location+Qe,Ue.meshPerAttribute);Y.isInstancedMesh!==!0&&z._maxInstanceCount===void 0&&(z._maxInstanceCount=Ue.meshPerAttribute*Ue.count)}else for(let Qe=0;Qe<re.locationSize;Qe++)x(re.location+Qe);i.bindBuffer(i.ARRAY_BUFFER,ue);for(let Qe=0;Qe<re.locationSize;Qe++)O(re.location+Qe,We/re.locationSize,Fe,me,rt*Pe,(Gt+We/re.locationSize*Qe)*Pe,Ye)}else{if(H.isInstancedBufferAttribute){for(let Ue=0;Ue<re.locationSize;Ue++)y(re.location+Ue,H.meshPerAttribute);Y.isInstancedMesh!==!0&&z._maxInstanceCount===void 0&&(z._maxInstanceCount=H.meshPerAttribute*H.count)}else for(let Ue=0;Ue<re.locationSize;Ue++)x(re.location+Ue);i.bindBuffer(i.ARRAY_BUFFER,ue);for(let Ue=0;Ue<re.locationSize;Ue++)O(re.location+Ue,We/re.locationSize,Fe,me,We*Pe,We/re.locationSize*Ue*Pe,Ye)}}else if(ne!==void 0){let me=ne[Se];if(me!==void 0)switch(me.length){case 2:i.vertexAttrib2fv(re.location,me);break;case 3:i.vertexAttrib3fv(re.location,me);break;case 4:i.vertexAttrib4fv(re.location,me);break;default:i.vertexAttrib1fv(re.location,me)}}}}I()}function U(){q();for(let Y in n){let J=n[Y];for(let ee in J){let z=J[ee];for(let ie in z){let G=z[ie];for(let ne in G)m(G[ne].object),delete G[ne];delete z[ie]}}delete n[Y]}}function N(Y){if(n[Y.id]===void 0)return;let J=n[Y.id];for(let ee in J){let z=J[ee];for(let ie in z){let G=z[ie];for(let ne in G)m(G[ne].object),delete G[ne];delete z[ie]}}delete n[Y.id]}function b(Y){for(let J in n){let ee=n[J];for(let z in ee){let ie=ee[z];if(ie[Y.id]===void 0)continue;let G=ie[Y.id];for(let ne in G)m(G[ne].object),delete G[ne];delete ie[Y.id]}}}function L(Y){for(let J in n){let ee=n[J],z=Y.isInstancedMesh===!0?Y.id:0,ie=ee[z];if(ie!==void 0){for(let G in ie){let ne=ie[G];for(let Se in ne)m(ne[Se].object),delete ne[Se];delete ie[G]}delete ee[z],Object.keys(ee).length===0&&delete n[J]}}}function q(){k(),c=!0,o!==s&&(o=s,d(o.object))}function k(){s.geometry=null,s.program=null,s.wireframe=!1}return{setup:h,reset:q,resetDefaultState:k,dispose:U,releaseStatesOfGeometry:N,releaseStatesOfObject:L,releaseStatesOfProgram:b,initAttributes:R,enableAttribute:x,disableUnusedAttributes:I}}function Ex(i,e,t){let n;function s(f){n=f}function o(f,d){i.drawArrays(n,f,d),t.update(d,n,1)}function c(f,d,m){m!==0&&(i.drawArraysInstanced(n,f,d,m),t.update(d,n,m))}function h(f,d,m){if(m===0)return;e.get("WEBGL_multi_draw").multiDrawArraysWEBGL(n,f,0,d,0,m);let g=0;for(let S=0;S<m;S++)g+=d[S];t.update(g,n,1)}this.setMode=s,this.render=o,this.renderInstances=c,this.renderMultiDraw=h}function Tx(i,e,t,n){let s;function o(){if(s!==void 0)return s;if(e.has("EXT_texture_filter_anisotropic")===!0){let b=e.get("EXT_texture_filter_anisotropic");s=i.getParameter(b.MAX_TEXTURE_MAX_ANISOTROPY_EXT)}else s=0;return s}function c(b){return!(b!==Hn&&n.convert(b)!==i.getParameter(i.IMPLEMENTATION_COLOR_READ_FORMAT))}function h(b){let L=b===Vn&&(e.has("EXT_color_buffer_half_float")||e.has("EXT_color_buffer_float"));return!(b!==Sn&&b!==Gn&&!L&&n.convert(b)!==i.getParameter(i.IMPLEMENTATION_COLOR_READ_TYPE))}function f(b){if(b==="highp"){if(i.getShaderPrecisionFormat(i.VERTEX_SHADER,i.HIGH_FLOAT).precision>0&&i.getShaderPrecisionFormat(i.FRAGMENT_SHADER,i.HIGH_FLOAT).precision>0)return"highp";b="mediump"}return b==="mediump"&&i.getShaderPrecisionFormat(i.VERTEX_SHADER,i.MEDIUM_FLOAT).precision>0&&i.getShaderPrecisionFormat(i.FRAGMENT_SHADER,i.MEDIUM_FLOAT).precision>0?"mediump":"lowp"}let d=t.precision!==void 0?t.precision:"highp",m=f(d);m!==d&&(et("WebGLRenderer:",d,"not supported, using",m,"instead."),d=m);let v=t.reversedDepthBuffer===!0&&e.has("EXT_clip_control"),g=t.logarithmicDepthBuffer===!0&&v===!1;t.reversedDepthBuffer===!0&&v===!1&&et("WebGLRenderer: Unable to use reversed depth buffer due to missing EXT_clip_control extension. Fallback to default depth buffer."),t.logarithmicDepthBuffer===!0&&v===!0&&et("WebGLRenderer: Logarithmic depth buffer is ignored when reversed depth buffer is enabled.");let S=i.getParameter(i.MAX_TEXTURE_IMAGE_UNITS),w=i.getParameter(i.MAX_VERTEX_TEXTURE_IMAGE_UNITS),R=i.getParameter(i.MAX_TEXTURE_SIZE),x=i.getParameter(i.MAX_CUBE_MAP_TEXTURE_SIZE),y=i.getParameter(i.MAX_VERTEX_ATTRIBS),I=i.getParameter(i.MAX_VERTEX_UNIFORM_VECTORS),O=i.getParameter(i.MAX_VARYING_VECTORS),P=i.getParameter(i.MAX_FRAGMENT_UNIFORM_VECTORS),U=i.getParameter(i.MAX_SAMPLES),N=i.getParameter(i.SAMPLES);return{isWebGL2:!0,getMaxAnisotropy:o,getMaxPrecision:f,textureFormatReadable:c,textureTypeReadable:h,precision:d,logarithmicDepthBuffer:g,reversedDepthBuffer:v,maxTextures:S,maxVertexTextures:w,maxTextureSize:R,maxCubemapSize:x,maxAttributes:y,maxVertexUniforms:I,maxVaryings:O,maxFragmentUniforms:P,maxSamples:U,samples:N}}function Ax(i){let e=this,t=null,n=0,s=!1,o=!1,c=new kn,h=new at,f={value:null,needsUpdate:!1};this.uniform=f,this.numPlanes=0,this.numIntersection=0,this.init=function(v,g){let S=v.length!==0||g||n!==0||s;return s=g,n=v.length,S},this.beginShadows=function(){o=!0,m(null)},this.endShadows=function(){o=!1},this.setGlobalState=function(v,g){t=m(v,g,0)},this.setState=function(v,g,S){let w=v.clippingPlanes,R=v.clipIntersection,x=v.clipShadows,y=i.get(v);if(!s||w===null||w.length===0||o&&!x)o?m(null):d();else{let I=o?0:n,O=I*4,P=y.clippingState||null;f.value=P,P=m(w,g,O,S);for(let U=0;U!==O;++U)P[U]=t[U];y.clippingState=P,this.numIntersection=R?this.numPlanes:0,this.numPlanes+=I}};function d(){f.value!==t&&(f.value=t,f.needsUpdate=n>0),e.numPlanes=n,e.numIntersection=0}function m(v,g,S,w){let R=v!==null?v.length:0,x=null;if(R!==0){if(x=f.value,w!==!0||x===null){let y=S+R*4,I=g.matrixWorldInverse;h.getNormalMatrix(I),(x===null||x.length<y)&&(x=new Float32Array(y));for(let O=0,P=S;O!==R;++O,P+=4)c.copy(v[O]).applyMatrix4(I,h),c.normal.toArray(x,P),x[P+3]=c.constant}f.value=x,f.needsUpdate=!0}return e.numPlanes=R,e.numIntersection=0,x}}var Ds=class extends En{constructor(e=1,t={}){super(e,e,t),this.isWebGLCubeRenderTarget=!0;let n={width:e,height:e,depth:1},s=[n,n,n,n,n,n];this.texture=new us(s),this._setTextureOptions(t),this.texture.isRenderTargetTexture=!0}fromEquirectangularTexture(e,t){this.texture.type=t.type,this.texture.colorSpace=t.colorSpace,this.texture.generateMipmaps=t.generateMipmaps,this.texture.minFilter=t.minFilter,this.texture.magFilter=t.magFilter;let n={uniforms:{tEquirect:{value:null}},vertexShader:`
+
+				varying vec3 vWorldDirection;
+
+				vec3 transformDirection( in vec3 dir, in mat4 matrix ) {
+
+					return normalize( ( matrix * vec4( dir, 0.0 ) ).xyz );
+
+				}
+
+				void main() {
+
+					vWorldDirection = transformDirection( position, modelMatrix );
+
+					#include <begin_vertex>
+					#include <project_vertex>
+
+				}
+			`,fragmentShader:`
+
+				uniform sampler2D tEquirect;
+
+				varying vec3 vWorldDirection;
+
+				#include <common>
+
+				void main() {
+
+					vec3 direction = normalize( vWorldDirection );
+
+					vec2 sampleUV = equirectUv( direction );
+
+					gl_FragColor = texture2D( tEquirect, sampleUV );
+
+				}
+			`},s=new Ii(5,5,5),o=new ni({name:"CubemapFromEquirect",uniforms:ir(n.uniforms),vertexShader:n.vertexShader,fragmentShader:n.fragmentShader,side:vn,blending:Qi});o.uniforms.tEquirect.value=t;let c=new Ln(s,o),h=t.minFilter;return t.minFilter===yi&&(t.minFilter=_n),new Dr(1,10,this).update(e,c),t.minFilter=h,c.geometry.dispose(),c.material.dispose(),this}clear(e,t=!0,n=!0,s=!0){let o=e.getRenderTarget();for(let c=0;c<6;c++)e.setRenderTarget(this,c),e.clear(t,n,s);e.setRenderTarget(o)}},Ku=256,Cx=3,Rx=20,Sd=256,Md=16,Px=3,Ix=new Q,Lx=new ut,Jo=class i{constructor(e){this._renderer=e,this._cubeSize=0,this._sourceTarget=null,this._cubeCamera=new Dr(1,10,null),this._boxMesh=new Ln(new Ii(5,5,5),null),this._cubemapMaterial=null,this._equirectMaterial=null,this._blurMaterial=null,this._ggxMaterial=null,this._integrationMaterial=null}fromScene(e,t=0,n=.1,s=100,o={}){let{size:c=256,position:h=Ix}=o,f=this._renderer;this._setSize(c);let d=this._allocateTarget(),m=this._getSourceTarget(!0);t>0&&(m.texture.mipmapsAutoUpdate=!1);let v=f.autoClear,g=f.autoClearColor,S=f.autoClearDepth,w=f.autoClearStencil,R=e.background;f.autoClear=!0,f.autoClearColor=!0,f.autoClearDepth=!0,f.autoClearStencil=!0,R===null&&(e.background=f.getClearColor(Lx));let x=new Dr(n,s,m);return x.position.copy(h),x.update(f,e),f.autoClear=v,f.autoClearColor=g,f.autoClearDepth=S,f.autoClearStencil=w,e.background=R,t>0&&(m.texture.mipmapsAutoUpdate=!0,this._blur(d,t)),this._applyPMREM(d),d}fromEquirectangular(e,t=null){return this._fromTexture(e,t)}fromCubemap(e,t=null){return this._fromTexture(e,t)}compileCubemapShader(){this._cubemapMaterial===null&&(this._cubemapMaterial=td(),this._compileMaterial(this._cubemapMaterial))}compileEquirectangularShader(){this._equirectMaterial===null&&(this._equirectMaterial=ed(),this._compileMaterial(this._equirectMaterial))}dispose(){this._sourceTarget!==null&&this._sourceTarget.dispose(),this._cubemapMaterial!==null&&this._cubemapMaterial.dispose(),this._equirectMaterial!==null&&this._equirectMaterial.dispose(),this._blurMaterial!==null&&this._blurMaterial.dispose(),this._ggxMaterial!==null&&this._ggxMaterial.dispose(),this._integrationMaterial!==null&&this._integrationMaterial.dispose(),this._boxMesh.geometry.dispose()}static lodToRoughness(e,t){return t>0?1-Math.sqrt(1-e/t):0}_setSize(e){this._cubeSize=Math.max(Ku,Tc(e))}_fromTexture(e,t){e.mapping===tr||e.mapping===Or?this._setSize(e.image.length===0?Ku:e.image[0].width||e.image[0].image.width):this._setSize(e.image.width/4);let n=t||this._allocateTarget();return this._textureToCubemap(e),this._applyPMREM(n),n}_allocateTarget(){let e=this._cubeSize,t=Qu(e,!1,!1),n=Math.log2(e)-Cx;for(let s=0;s<=n;s++)t.texture.mipmaps.push({width:e>>s,height:e>>s});return t.texture.name="PMREM",t.texture.isPMREMTexture=!0,t}_getSourceTarget(e=!1){let t=this._cubeSize,n=this._sourceTarget;return(n===null||n.width!==t||e&&n.depthBuffer===!1)&&(n!==null&&n.dispose(),this._sourceTarget=Qu(t,!0,e)),this._sourceTarget}_compileMaterial(e){this._boxMesh.material=e,this._renderer.compile(this._boxMesh,this._cubeCamera.children[0])}_renderCube(e,t,n){let s=this._boxMesh,o=this._cubeCamera;s.material=n,o.renderTarget=e,o.activeMipmapLevel=t;let c=e.width>>t;e.viewport.set(0,0,c,c),o.update(this._renderer,s),e.viewport.set(0,0,e.width,e.height)}_textureToCubemap(e){let t;e.mapping===tr||e.mapping===Or?(this._cubemapMaterial===null&&(this._cubemapMaterial=td()),t=this._cubemapMaterial,t.uniforms.flipEnvMap.value=e.isRenderTargetTexture===!1?-1:1):(this._equirectMaterial===null&&(this._equirectMaterial=ed()),t=this._equirectMaterial),t.uniforms.envMap.value=e,this._renderCube(this._getSourceTarget(),0,t)}_applyPMREM(e){this._ggxMaterial===null&&(this._ggxMaterial=Dx(),this._integrationMaterial=Fx());let t=this._cubeSize,n=e.texture.mipmaps.length-1,s=this._ggxMaterial.uniforms;s.envMap.value=this._sourceTarget.texture;let o=this._integrationMaterial.uniforms;o.envMap.value=this._sourceTarget.texture,o.sourceLod.value=Math.log2(t/Md);for(let c=0;c<=n;c++){let h=i.lodToRoughness(c,n);if(c>n-Px)o.roughness.value=h,this._renderCube(e,c,this._integrationMaterial);else{let f=h>0?Math.log2(t)+.5*Math.log2(6/(Sd*Math.pow(h,4)))+.5:0;s.roughness.value=h,s.lodBias.value=f,this._renderCube(e,c,this._ggxMaterial)}}}_blur(e,t){this._blurMaterial===null&&(this._blurMaterial=Nx());let n=this._blurMaterial,s=n.uniforms,o=this._sourceTarget;s.sigma.value=Math.min(t,Math.PI)/Math.SQRT2,s.envMap.value=o.texture,this._renderCube(e,0,n),s.envMap.value=e.texture,this._renderCube(o,0,n)}};function Qu(i,e,t){return new Ds(i,{minFilter:yi,generateMipmaps:e,type:Vn,colorSpace:is,depthBuffer:t})}function Fs(i,e,t){return new ni({name:i,uniforms:e,vertexShader:mt.cube_vert,fragmentShader:t,side:vn,blending:Qi,depthTest:!1,depthWrite:!1})}function Dx(){return Fs("PMREMGGXConvolution",{envMap:{value:null},roughness:{value:0},lodBias:{value:0}},`
+
+		#define GGX_SAMPLES ${Sd}u
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float roughness;
+		uniform float lodBias;
+
+		#include <common>
+
+		// Van der Corput radical inverse
+		float radicalInverse_VdC( uint bits ) {
+
+			bits = ( bits << 16u ) | ( bits >> 16u );
+			bits = ( ( bits & 0x55555555u ) << 1u ) | ( ( bits & 0xAAAAAAAAu ) >> 1u );
+			bits = ( ( bits & 0x33333333u ) << 2u ) | ( ( bits & 0xCCCCCCCCu ) >> 2u );
+			bits = ( ( bits & 0x0F0F0F0Fu ) << 4u ) | ( ( bits & 0xF0F0F0F0u ) >> 4u );
+			bits = ( ( bits & 0x00FF00FFu ) << 8u ) | ( ( bits & 0xFF00FF00u ) >> 8u );
+			return float( bits ) * 2.3283064365386963e-10; // / 0x100000000
+
+		}
+
+		// Hammersley sequence
+		vec2 hammersley( uint i, uint N ) {
+
+			return vec2( float( i ) / float( N ), radicalInverse_VdC( i ) );
+
+		}
+
+		void main() {
+
+			vec3 N = normalize( vWorldDirection );
+
+			// For very low roughness, just sample the environment directly
+			if ( roughness < 0.001 ) {
+
+				gl_FragColor = vec4( textureLod( envMap, N, 0.0 ).rgb, 1.0 );
+				return;
+
+			}
+
+			float alpha = roughness * roughness;
+			float alpha2 = alpha * alpha;
+
+			// Tangent space basis for VNDF sampling
+			vec3 up = abs( N.z ) < 0.999 ? vec3( 0.0, 0.0, 1.0 ) : vec3( 1.0, 0.0, 0.0 );
+			vec3 tangent = normalize( cross( up, N ) );
+			vec3 bitangent = cross( N, tangent );
+
+			vec3 prefilteredColor = vec3( 0.0 );
+			float totalWeight = 0.0;
+
+			for ( uint i = 0u; i < GGX_SAMPLES; i ++ ) {
+
+				vec2 Xi = hammersley( i, GGX_SAMPLES );
+
+				// With V = N, sample the reflected direction directly.
+				float invQ = 1.0 / ( 1.0 - Xi.x + alpha2 * Xi.x );
+				float NdotL = ( 1.0 - Xi.x - alpha2 * Xi.x ) * invQ;
+
+				if ( NdotL > 0.0 ) {
+
+					float phi = 2.0 * PI * Xi.y;
+					float sinTheta = 2.0 * alpha * sqrt( Xi.x * ( 1.0 - Xi.x ) ) * invQ;
+					vec3 L = N * NdotL + ( tangent * cos( phi ) + bitangent * sin( phi ) ) * sinTheta;
+
+					// Match the source mip to the sample's solid angle. The terms
+					// independent of the sample are precomputed in lodBias.
+					float d = alpha2 * invQ;
+					float lod = max( log2( d ) + lodBias, 0.0 );
+
+					// Weight by NdotL for the split-sum approximation
+					prefilteredColor += textureLod( envMap, L, lod ).rgb * NdotL;
+					totalWeight += NdotL;
+
+				}
+
+			}
+
+			gl_FragColor = vec4( prefilteredColor / totalWeight, 1.0 );
+
+		}
+	`)}function Fx(){return Fs("PMREMGGXIntegration",{envMap:{value:null},roughness:{value:0},sourceLod:{value:0},sourceSize:{value:Md}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float roughness;
+		uniform float sourceLod;
+		uniform int sourceSize;
+
+		void main() {
+
+			vec3 N = normalize( vWorldDirection );
+
+			float alpha = roughness * roughness;
+			float alpha2 = alpha * alpha;
+
+			float texelSize = 2.0 / float( sourceSize );
+
+			vec3 prefilteredColor = vec3( 0.0 );
+			float totalWeight = 0.0;
+
+			// Pair opposite texels: only the one in N's hemisphere contributes.
+			for ( int face = 0; face < 3; face ++ ) {
+
+				for ( int y = 0; y < sourceSize; y ++ ) {
+
+					for ( int x = 0; x < sourceSize; x ++ ) {
+
+						vec2 uv = ( vec2( x, y ) + 0.5 ) * texelSize - 1.0;
+						vec3 texelDirection = face == 0 ? vec3( 1.0, uv ) : ( face == 1 ? vec3( uv.x, 1.0, uv.y ) : vec3( uv, 1.0 ) );
+
+						float invDistance = inversesqrt( 1.0 + dot( uv, uv ) );
+						float NdotL = dot( N, texelDirection );
+						texelDirection *= NdotL < 0.0 ? - 1.0 : 1.0;
+						NdotL = abs( NdotL ) * invDistance;
+
+						// With V = N, NdotH squared is ( 1 + NdotL ) / 2. Common factors
+						// in the GGX distribution and texel solid angle cancel when normalized.
+						float d = 1.0 + alpha2 + ( alpha2 - 1.0 ) * NdotL;
+						float weight = NdotL * invDistance * invDistance * invDistance / ( d * d );
+
+						prefilteredColor += textureLod( envMap, texelDirection, sourceLod ).rgb * weight;
+						totalWeight += weight;
+
+					}
+
+				}
+
+			}
+
+			gl_FragColor = vec4( prefilteredColor / totalWeight, 1.0 );
+
+		}
+	`)}function Nx(){return Fs("PMREMSphericalGaussianBlur",{envMap:{value:null},sigma:{value:0}},`
+
+		#define SAMPLES ${Rx}
+		#define GOLDEN_ANGLE 2.39996322973
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float sigma;
+
+		#include <common>
+
+		void main() {
+
+			vec3 outputDirection = normalize( vWorldDirection );
+
+			vec3 up = abs( outputDirection.z ) < 0.999 ? vec3( 0.0, 0.0, 1.0 ) : vec3( 1.0, 0.0, 0.0 );
+			vec3 tangent = normalize( cross( up, outputDirection ) );
+			vec3 bitangent = cross( outputDirection, tangent );
+
+			// Truncate the kernel at three standard deviations or at the antipode.
+			float thetaMax = min( 3.0 * sigma, PI );
+			float truncation = 1.0 - exp( - 0.5 * thetaMax * thetaMax / ( sigma * sigma ) );
+
+			vec3 accumColor = vec3( 0.0 );
+			float accumWeight = 0.0;
+
+			for ( int i = 0; i < SAMPLES; i ++ ) {
+
+				// Stratified inverse-CDF sampling of the Gaussian, placed on a golden-angle spiral.
+				float stratum = ( float( i ) + 0.5 ) / float( SAMPLES );
+				float theta = sigma * sqrt( - 2.0 * log( 1.0 - stratum * truncation ) );
+				float phi = float( i ) * GOLDEN_ANGLE;
+
+				vec3 offset = cos( phi ) * tangent + sin( phi ) * bitangent;
+				vec3 sampleDirection = cos( theta ) * outputDirection + sin( theta ) * offset;
+
+				// Correct the planar sample density to solid angle.
+				float weight = sin( theta ) / theta;
+
+				accumColor += weight * textureLod( envMap, sampleDirection, 0.0 ).rgb;
+				accumWeight += weight;
+
+			}
+
+			gl_FragColor = vec4( accumColor / accumWeight, 1.0 );
+
+		}
+	`)}function ed(){return Fs("PMREMEquirectangularToCubemap",{envMap:{value:null}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform sampler2D envMap;
+
+		#include <common>
+
+		void main() {
+
+			// Average four subpixel samples to preserve small, bright features.
+			vec3 direction = normalize( vWorldDirection );
+			vec3 dx = dFdx( direction ) * 0.25;
+			vec3 dy = dFdy( direction ) * 0.25;
+
+			vec3 color = textureLod( envMap, equirectUv( normalize( direction - dx - dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction + dx - dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction - dx + dy ) ), 0.0 ).rgb;
+			color += textureLod( envMap, equirectUv( normalize( direction + dx + dy ) ), 0.0 ).rgb;
+			gl_FragColor = vec4( color * 0.25, 1.0 );
+
+		}
+	`)}function td(){return Fs("PMREMCubemapToCubemap",{envMap:{value:null},flipEnvMap:{value:-1}},`
+
+		varying vec3 vWorldDirection;
+
+		uniform samplerCube envMap;
+		uniform float flipEnvMap;
+
+		void main() {
+
+			gl_FragColor = vec4( textureCube( envMap, vec3( flipEnvMap * vWorldDirection.x, vWorldDirection.yz ) ).rgb, 1.0 );
+
+		}
+	`)}function Ux(i){let e=new WeakMap,t=new WeakMap,n=null;function s(g,S=!1){return g==null?null:S?c(g):o(g)}function o(g){if(g&&g.isTexture){let S=g.mapping;if(S===ao||S===oo)if(e.has(g)){let w=e.get(g).texture;return h(w,g.mapping)}else{let w=g.image;if(w&&w.height>0){let R=new Ds(w.height);return R.fromEquirectangularTexture(i,g),e.set(g,R),g.addEventListener("dispose",d),h(R.texture,g.mapping)}else return null}}return g}function c(g){if(g&&g.isTexture&&g.isPMREMTexture!==!0){let S=g.mapping,w=S===ao||S===oo,R=S===tr||S===Or;if(w||R){let x=t.get(g),y=x!==void 0?x.texture.pmremVersion:0;if(g.isRenderTargetTexture&&g.pmremVersion!==y)return n===null&&(n=new Jo(i)),x=w?n.fromEquirectangular(g,x):n.fromCubemap(g,x),x.texture.pmremVersion=g.pmremVersion,t.set(g,x),x.texture;if(x!==void 0)return x.texture;{let I=g.image;return w&&I&&I.height>0||R&&I&&f(I)?(n===null&&(n=new Jo(i)),x=w?n.fromEquirectangular(g):n.fromCubemap(g),x.texture.pmremVersion=g.pmremVersion,t.set(g,x),g.addEventListener("dispose",m),x.texture):null}}}return g}function h(g,S){return S===ao?g.mapping=tr:S===oo&&(g.mapping=Or),g}function f(g){let S=0,w=6;for(let R=0;R<w;R++)g[R]!==void 0&&S++;return S===w}function d(g){let S=g.target;S.removeEventListener("dispose",d);let w=e.get(S);w!==void 0&&(e.delete(S),w.dispose())}function m(g){let S=g.target;S.removeEventListener("dispose",m);let w=t.get(S);w!==void 0&&(t.delete(S),w.dispose())}function v(){e=new WeakMap,t=new WeakMap,n!==null&&(n.dispose(),n=null)}return{get:s,dispose:v}}function Ox(i){let e={};function t(n){if(e[n]!==void 0)return e[n];let s=i.getExtension(n);return e[n]=s,s}return{has:function(n){return t(n)!==null},init:function(){t("EXT_color_buffer_float"),t("WEBGL_clip_cull_distance"),t("OES_texture_float_linear"),t("EXT_color_buffer_half_float"),t("WEBGL_multisampled_render_to_texture"),t("WEBGL_render_shared_exponent")},get:function(n){let s=t(n);return s===null&&Qr("WebGLRenderer: "+n+" extension not supported."),s}}}function Bx(i,e,t,n){let s={},o=new WeakMap,c=new FinalizationRegistry(w=>delete s[w]);function h(w){f(w.target)}function f(w){w.index!==null&&e.remove(w.index);for(let x in w.attributes)e.remove(w.attributes[x]);w.removeEventListener("dispose",h),delete s[w.id],c.unregister(w);let R=o.get(w);R&&(e.remove(R),o.delete(w)),n.releaseStatesOfGeometry(w),w.isInstancedBufferGeometry===!0&&delete w._maxInstanceCount,t.memory.geometries--}function d(w,R){return s[R.id]!==void 0||(R.addEventListener("dispose",h),s[R.id]=new WeakRef(R),c.register(R,R.id,R),t.memory.geometries++),R}function m(w){let R=w.attributes;for(let x in R)e.update(R[x],i.ARRAY_BUFFER)}function v(w){let R=w.index,x=w.attributes.position,y=0;if(x===void 0)return;let I=R!==null?R.array.length:x.array.length/3-1,O=x.count>=65535?cs:ls,P=new O(Math.ceil(I/3)*6,1),U=P.array;if(R!==null){let b=R.array;y=R.version;for(let L=0,q=0;L<I;L+=3){let k=b[L+0],Y=b[L+1],J=b[L+2];U[q++]=k,U[q++]=Y,U[q++]=Y,U[q++]=J,U[q++]=J,U[q++]=k}}else{y=x.version;for(let b=0,L=0;b<I;b+=3){let q=b+0,k=b+1,Y=b+2;U[L++]=q,U[L++]=k,U[L++]=k,U[L++]=Y,U[L++]=Y,U[L++]=q}}P.version=y;let N=o.get(w);N&&e.remove(N),o.set(w,P)}function g(w){let R=o.get(w);if(R){let x=w.index;x!==null&&R.version<x.version&&v(w)}else v(w);return o.get(w)}function S(){for(let w in s){let R=s[w].deref();R!==void 0&&f(R)}}return{get:d,update:m,getWireframeAttribute:g,dispose:S}}function kx(i,e,t){let n;function s(v){n=v}let o,c;function h(v){o=v.type,c=v.bytesPerElement}function f(v,g){i.drawElements(n,g,o,v*c),t.update(g,n,1)}function d(v,g,S){S!==0&&(i.drawElementsInstanced(n,g,o,v*c,S),t.update(g,n,S))}function m(v,g,S){if(S===0)return;e.get("WEBGL_multi_draw").multiDrawElementsWEBGL(n,g,0,o,v,0,S);let R=0;for(let x=0;x<S;x++)R+=g[x];t.update(R,n,1)}this.setMode=s,this.setIndex=h,this.render=f,this.renderInstances=d,this.renderMultiDraw=m}function zx(i){let e={geometries:0,textures:0},t={frame:0,calls:0,triangles:0,points:0,lines:0};function n(o,c,h){switch(t.calls++,c){case i.TRIANGLES:t.triangles+=h*(o/3);break;case i.LINES:t.lines+=h*(o/2);break;case i.LINE_STRIP:t.lines+=h*(o-1);break;case i.LINE_LOOP:t.lines+=h*o;break;case i.POINTS:t.points+=h*o;break;default:tt("WebGLInfo: Unknown draw mode:",c);break}}function s(){t.calls=0,t.triangles=0,t.points=0,t.lines=0}return{memory:e,render:t,programs:null,autoReset:!0,reset:s,update:n}}function Gx(i,e,t){let n=new WeakMap,s=new zt;function o(c,h,f){let d=c.morphTargetInfluences,m=h.morphAttributes.position||h.morphAttributes.normal||h.morphAttributes.color,v=m!==void 0?m.length:0,g=n.get(h);if(g===void 0||g.count!==v){let q=function(){b.dispose(),n.delete(h),h.removeEventListener("dispose",q)};g!==void 0&&g.texture.dispose();let S=h.morphAttributes.position!==void 0,w=h.morphAttributes.normal!==void 0,R=h.morphAttributes.color!==void 0,x=h.morphAttributes.position||[],y=h.morphAttributes.normal||[],I=h.morphAttributes.color||[],O=0;S===!0&&(O=1),w===!0&&(O=2),R===!0&&(O=3);let P=h.attributes.position.count*O,U=1;P>e.maxTextureSize&&(U=Math.ceil(P/e.maxTextureSize),P=e.maxTextureSize);let N=new Float32Array(P*U*4*v),b=new as(N,P,U,v);b.type=Gn,b.needsUpdate=!0;let L=O*4;for(let k=0;k<v;k++){let Y=x[k],J=y[k],ee=I[k],z=P*U*4*k;for(let ie=0;ie<Y.count;ie++){let G=ie*L;S===!0&&(s.fromBufferAttribute(Y,ie),N[z+G+0]=s.x,N[z+G+1]=s.y,N[z+G+2]=s.z,N[z+G+3]=0),w===!0&&(s.fromBufferAttribute(J,ie),N[z+G+4]=s.x,N[z+G+5]=s.y,N[z+G+6]=s.z,N[z+G+7]=0),R===!0&&(s.fromBufferAttribute(ee,ie),N[z+G+8]=s.x,N[z+G+9]=s.y,N[z+G+10]=s.z,N[z+G+11]=ee.itemSize===4?s.w:1)}}g={count:v,texture:b,size:new gt(P,U)},n.set(h,g),h.addEventListener("dispose",q)}if(c.isInstancedMesh===!0&&c.morphTexture!==null)f.getUniforms().setValue(i,"morphTexture",c.morphTexture,t);else{let S=0;for(let R=0;R<d.length;R++)S+=d[R];let w=h.morphTargetsRelative?1:1-S;f.getUniforms().setValue(i,"morphTargetBaseInfluence",w),f.getUniforms().setValue(i,"morphTargetInfluences",d)}f.getUniforms().setValue(i,"morphTargetsTexture",g.texture,t),f.getUniforms().setValue(i,"morphTargetsTextureSize",g.size)}return{update:o}}function Vx(i,e,t,n,s){let o=new WeakMap;function c(d){let m=s.render.frame,v=d.geometry,g=e.get(d,v);if(o.get(g)!==m&&(e.update(g),o.set(g,m)),d.isInstancedMesh&&(d.hasEventListener("dispose",f)===!1&&d.addEventListener("dispose",f),o.get(d)!==m&&(t.update(d.instanceMatrix,i.ARRAY_BUFFER),d.instanceColor!==null&&t.update(d.instanceColor,i.ARRAY_BUFFER),o.set(d,m))),d.isSkinnedMesh){let S=d.skeleton;o.get(S)!==m&&(S.update(),o.set(S,m))}return g}function h(){o=new WeakMap}function f(d){let m=d.target;m.removeEventListener("dispose",f),n.releaseStatesOfObject(m),t.remove(m.instanceMatrix),m.instanceColor!==null&&t.remove(m.instanceColor)}return{update:c,dispose:h}}var Hx={[sc]:"LINEAR_TONE_MAPPING",[ac]:"REINHARD_TONE_MAPPING",[oc]:"CINEON_TONE_MAPPING",[lc]:"ACES_FILMIC_TONE_MAPPING",[hc]:"AGX_TONE_MAPPING",[uc]:"NEUTRAL_TONE_MAPPING",[cc]:"CUSTOM_TONE_MAPPING"};function Wx(i,e,t,n,s,o){let c=new En(e,t,{type:i,depthBuffer:s,stencilBuffer:o,samples:n?4:0,storeMultisampledDepthBuffer:!1,storeMultisampledStencilBuffer:!1,resolveDepthBuffer:!1,resolveStencilBuffer:!1}),h=null,f=null,d=null,m=new xn;m.setAttribute("position",new Wt([-1,3,0,-1,-1,0,3,-1,0],3)),m.setAttribute("uv",new Wt([0,2,0,0,2,0],2));let v=new Xa({uniforms:{tDiffuse:{value:null}},vertexShader:`
+			precision highp float;
+
+			uniform mat4 modelViewMatrix;
+			uniform mat4 projectionMatrix;
+
+			attribute vec3 position;
+			attribute vec2 uv;
+
+			varying vec2 vUv;
+
+			void main() {
+				vUv = uv;
+				gl_Position = projectionMatrix * modelViewMatrix * vec4( position, 1.0 );
+			}`,fragmentShader:`
+			precision highp float;
+
+			uniform sampler2D tDiffuse;
+
+			varying vec2 vUv;
+
+			#include <tonemapping_pars_fragment>
+			#include <colorspace_pars_fragment>
+
+			void main() {
+				gl_FragColor = texture2D( tDiffuse, vUv );
+
+				#ifdef LINEAR_TONE_MAPPING
+					gl_FragColor.rgb = LinearToneMapping( gl_FragColor.rgb );
+				#elif defined( REINHARD_TONE_MAPPING )
+					gl_FragColor.rgb = ReinhardToneMapping( gl_FragColor.rgb );
+				#elif defined( CINEON_TONE_MAPPING )
+					gl_FragColor.rgb = CineonToneMapping( gl_FragColor.rgb );
+				#elif defined( ACES_FILMIC_TONE_MAPPING )
+					gl_FragColor.rgb = ACESFilmicToneMapping( gl_FragColor.rgb );
+				#elif defined( AGX_TONE_MAPPING )
+					gl_FragColor.rgb = AgXToneMapping( gl_FragColor.rgb );
+				#elif defined( NEUTRAL_TONE_MAPPING )
+					gl_FragColor.rgb = NeutralToneMapping( gl_FragColor.rgb );
+				#elif defined( CUSTOM_TONE_MAPPING )
+					gl_FragColor.rgb = CustomToneMapping( gl_FragColor.rgb );
+				#endif
+
+				#ifdef SRGB_TRANSFER
+					gl_FragColor = sRGBTransferOETF( gl_FragColor );
+				#endif
+			}`,depthTest:!1,depthWrite:!1}),g=new Ln(m,v),S=new Ms(-1,1,1,-1,0,1),w=null,R=null,x=!1,y,I=null,O=[],P=!1;this.setSize=function(U,N){c.setSize(U,N),h!==null&&h.setSize(U,N),f!==null&&f.setSize(U,N);for(let b=0;b<O.length;b++){let L=O[b];L.setSize&&L.setSize(U,N)}},this.setEffects=function(U){O=U,P=O.length>0&&O[0].isRenderPass===!0;let N=c.width,b=c.height;O.length>0&&h===null&&(h=new En(N,b,{type:Vn,depthBuffer:!1,stencilBuffer:!1}),f=new En(N,b,{type:Vn,depthBuffer:!1,stencilBuffer:!1}));let L=s===!0&&O.some(q=>q.needsDepthTexture===!0);L!==(c.depthTexture!==null)&&(L===!0&&d===null&&(d=new vi(N,b),o===!0&&(d.format=xi,d.type=nr)),c.dispose(),c.depthTexture=L?d:null,c.resolveDepthBuffer=L,c.storeMultisampledDepthBuffer=L);for(let q=0;q<O.length;q++){let k=O[q];k.setSize&&k.setSize(N,b),L&&k.needsDepthTexture===!0&&k.setDepthTexture&&k.setDepthTexture(d)}},this.begin=function(U,N){if(x||U.toneMapping===ri&&O.length===0)return!1;if(I=N,N!==null){let b=N.width,L=N.height;(c.width!==b||c.height!==L)&&this.setSize(b,L)}return P===!1&&U.setRenderTarget(c),y=U.toneMapping,U.toneMapping=ri,!0},this.hasRenderPass=function(){return P},this.end=function(U,N){U.toneMapping=y,x=!0;let b=c,L=h;for(let q=0;q<O.length;q++){let k=O[q];k.enabled!==!1&&(k.render(U,L,b,N),k.needsSwap!==!1&&(b=L,L=L===h?f:h))}if(w!==U.outputColorSpace||R!==U.toneMapping){w=U.outputColorSpace,R=U.toneMapping,v.defines={},yt.getTransfer(w)===Ct&&(v.defines.SRGB_TRANSFER="");let q=Hx[R];q&&(v.defines[q]=""),v.needsUpdate=!0}v.uniforms.tDiffuse.value=b.texture,U.setRenderTarget(I),U.render(g,S),I=null,x=!1},this.isCompositing=function(){return x},this.dispose=function(){c.dispose(),h!==null&&h.dispose(),f!==null&&f.dispose(),m.dispose(),v.dispose()}}var bd=new yn,wd=new vi(1,1),Ed=new ds(1),Td=new as,Ad=new ka,Cd=new us,nd=[],id=[],rd=new Float32Array(16),sd=new Float32Array(9),ad=new Float32Array(4);function Gr(i,e,t){let n=i[0];if(n<=0||n>0)return i;let s=e*t,o=nd[s];if(o===void 0&&(o=new Float32Array(s),nd[s]=o),e!==0){n.toArray(o,0);for(let c=1,h=0;c!==e;++c)h+=t,i[c].toArray(o,h)}return o}function Zt(i,e){if(i.length!==e.length)return!1;for(let t=0,n=i.length;t<n;t++)if(i[t]!==e[t])return!1;return!0}function Kt(i,e){for(let t=0,n=e.length;t<n;t++)i[t]=e[t]}function Ko(i,e){let t=id[e];t===void 0&&(t=new Int32Array(e),id[e]=t);for(let n=0;n!==e;++n)t[n]=i.allocateTextureUnit();return t}function Xx(i,e){let t=this.cache;t[0]!==e&&(i.uniform1f(this.addr,e),t[0]=e)}function $x(i,e){let t=this.cache;if(e.x!==void 0)(t[0]!==e.x||t[1]!==e.y)&&(i.uniform2f(this.addr,e.x,e.y),t[0]=e.x,t[1]=e.y);else{if(Zt(t,e))return;i.uniform2fv(this.addr,e),Kt(t,e)}}function qx(i,e){let t=this.cache;if(e.x!==void 0)(t[0]!==e.x||t[1]!==e.y||t[2]!==e.z)&&(i.uniform3f(this.addr,e.x,e.y,e.z),t[0]=e.x,t[1]=e.y,t[2]=e.z);else if(e.r!==void 0)(t[0]!==e.r||t[1]!==e.g||t[2]!==e.b)&&(i.uniform3f(this.addr,e.r,e.g,e.b),t[0]=e.r,t[1]=e.g,t[2]=e.b);else{if(Zt(t,e))return;i.uniform3fv(this.addr,e),Kt(t,e)}}function Yx(i,e){let t=this.cache;if(e.x!==void 0)(t[0]!==e.x||t[1]!==e.y||t[2]!==e.z||t[3]!==e.w)&&(i.uniform4f(this.addr,e.x,e.y,e.z,e.w),t[0]=e.x,t[1]=e.y,t[2]=e.z,t[3]=e.w);else{if(Zt(t,e))return;i.uniform4fv(this.addr,e),Kt(t,e)}}function jx(i,e){let t=this.cache,n=e.elements;if(n===void 0){if(Zt(t,e))return;i.uniformMatrix2fv(this.addr,!1,e),Kt(t,e)}else{if(Zt(t,n))return;ad.set(n),i.uniformMatrix2fv(this.addr,!1,ad),Kt(t,n)}}function Jx(i,e){let t=this.cache,n=e.elements;if(n===void 0){if(Zt(t,e))return;i.uniformMatrix3fv(this.addr,!1,e),Kt(t,e)}else{if(Zt(t,n))return;sd.set(n),i.uniformMatrix3fv(this.addr,!1,sd),Kt(t,n)}}function Zx(i,e){let t=this.cache,n=e.elements;if(n===void 0){if(Zt(t,e))return;i.uniformMatrix4fv(this.addr,!1,e),Kt(t,e)}else{if(Zt(t,n))return;rd.set(n),i.uniformMatrix4fv(this.addr,!1,rd),Kt(t,n)}}function Kx(i,e){let t=this.cache;t[0]!==e&&(i.uniform1i(this.addr,e),t[0]=e)}function Qx(i,e){let t=this.cache;if(e.x!==void 0)(t[0]!==e.x||t[1]!==e.y)&&(i.uniform2i(this.addr,e.x,e.y),t[0]=e.x,t[1]=e.y);else{if(Zt(t,e))return;i.uniform2iv(this.addr,e),Kt(t,e)}}function eS(i,e){let t=this.cache;if(e.x!==void 0)(t[0]!==e.x||t[1]!==e.y||t[2]!==e.z)&&(i.uniform3i(this.addr,e.x,e.y,e.z),t[0]=e.x,t[1]=e.y,t[2]=e.z);else{if(Zt(t,e))return;i.uniform3iv(this.addr,e),Kt(t,e)}}function tS(i,e){let t=this.cache;if(e.x!==void 0)(t[0]!==e.x||t[1]!==e.y||t[2]!==e.z||t[3]!==e.w)&&(i.uniform4i(this.addr,e.x,e.y,e.z,e.w),t[0]=e.x,t[1]=e.y,t[2]=e.z,t[3]=e.w);else{if(Zt(t,e))return;i.uniform4iv(this.addr,e),Kt(t,e)}}function nS(i,e){let t=this.cache;t[0]!==e&&(i.uniform1ui(this.addr,e),t[0]=e)}function iS(i,e){let t=this.cache;if(e.x!==void 0)(t[0]!==e.x||t[1]!==e.y)&&(i.uniform2ui(this.addr,e.x,e.y),t[0]=e.x,t[1]=e.y);else{if(Zt(t,e))return;i.uniform2uiv(this.addr,e),Kt(t,e)}}function rS(i,e){let t=this.cache;if(e.x!==void 0)(t[0]!==e.x||t[1]!==e.y||t[2]!==e.z)&&(i.uniform3ui(this.addr,e.x,e.y,e.z),t[0]=e.x,t[1]=e.y,t[2]=e.z);else{if(Zt(t,e))return;i.uniform3uiv(this.addr,e),Kt(t,e)}}function sS(i,e){let t=this.cache;if(e.x!==void 0)(t[0]!==e.x||t[1]!==e.y||t[2]!==e.z||t[3]!==e.w)&&(i.uniform4ui(this.addr,e.x,e.y,e.z,e.w),t[0]=e.x,t[1]=e.y,t[2]=e.z,t[3]=e.w);else{if(Zt(t,e))return;i.uniform4uiv(this.addr,e),Kt(t,e)}}function Qo(i){return i.version===0&&(i.compareFunction=Mc,i.needsUpdate=!0),i}function aS(i,e,t){let n=this.cache,s=t.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s);let o;this.type===i.SAMPLER_2D_SHADOW?o=Qo(wd):o=bd,t.setTexture2D(e||o,s)}function oS(i,e,t){let n=this.cache,s=t.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s),t.setTexture3D(e||Ad,s)}function lS(i,e,t){let n=this.cache,s=t.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s);let o;this.type===i.SAMPLER_CUBE_SHADOW?o=Qo(Ed):o=Cd,t.setTextureCube(e||o,s)}function cS(i,e,t){let n=this.cache,s=t.allocateTextureUnit();n[0]!==s&&(i.uniform1i(this.addr,s),n[0]=s),t.setTexture2DArray(e||Td,s)}function hS(i){switch(i){case 5126:return Xx;case 35664:return $x;case 35665:return qx;case 35666:return Yx;case 35674:return jx;case 35675:return Jx;case 35676:return Zx;case 5124:case 35670:return Kx;case 35667:case 35671:return Qx;case 35668:case 35672:return eS;case 35669:case 35673:return tS;case 5125:return nS;case 36294:return iS;case 36295:return rS;case 36296:return sS;case 35678:case 36198:case 36298:case 36306:case 35682:return aS;case 35679:case 36299:case 36307:return oS;case 35680:case 36300:case 36308:case 36293:return lS;case 36289:case 36303:case 36311:case 36292:return cS}}function uS(i,e){i.uniform1fv(this.addr,e)}function dS(i,e){let t=Gr(e,this.size,2);i.uniform2fv(this.addr,t)}function fS(i,e){let t=Gr(e,this.size,3);i.uniform3fv(this.addr,t)}function pS(i,e){let t=Gr(e,this.size,4);i.uniform4fv(this.addr,t)}function mS(i,e){let t=Gr(e,this.size,4);i.uniformMatrix2fv(this.addr,!1,t)}function gS(i,e){let t=Gr(e,this.size,9);i.uniformMatrix3fv(this.addr,!1,t)}function _S(i,e){let t=Gr(e,this.size,16);i.uniformMatrix4fv(this.addr,!1,t)}function vS(i,e){i.uniform1iv(this.addr,e)}function yS(i,e){i.uniform2iv(this.addr,e)}function xS(i,e){i.uniform3iv(this.addr,e)}function SS(i,e){i.uniform4iv(this.addr,e)}function MS(i,e){i.uniform1uiv(this.addr,e)}function bS(i,e){i.uniform2uiv(this.addr,e)}function wS(i,e){i.uniform3uiv(this.addr,e)}function ES(i,e){i.uniform4uiv(this.addr,e)}function TS(i,e,t){let n=this.cache,s=e.length,o=Ko(t,s);Zt(n,o)||(i.uniform1iv(this.addr,o),Kt(n,o));let c;this.type===i.SAMPLER_2D_SHADOW?c=Qo(wd):c=bd;for(let h=0;h!==s;++h)t.setTexture2D(e[h]||c,o[h])}function AS(i,e,t){let n=this.cache,s=e.length,o=Ko(t,s);Zt(n,o)||(i.uniform1iv(this.addr,o),Kt(n,o));for(let c=0;c!==s;++c)t.setTexture3D(e[c]||Ad,o[c])}function CS(i,e,t){let n=this.cache,s=e.length,o=Ko(t,s);Zt(n,o)||(i.uniform1iv(this.addr,o),Kt(n,o));let c;this.type===i.SAMPLER_CUBE_SHADOW?c=Qo(Ed):c=Cd;for(let h=0;h!==s;++h)t.setTextureCube(e[h]||c,o[h])}function RS(i,e,t){let n=this.cache,s=e.length,o=Ko(t,s);Zt(n,o)||(i.uniform1iv(this.addr,o),Kt(n,o));for(let c=0;c!==s;++c)t.setTexture2DArray(e[c]||Td,o[c])}function PS(i){switch(i){case 5126:return uS;case 35664:return dS;case 35665:return fS;case 35666:return pS;case 35674:return mS;case 35675:return gS;case 35676:return _S;case 5124:case 35670:return vS;case 35667:case 35671:return yS;case 35668:case 35672:return xS;case 35669:case 35673:return SS;case 5125:return MS;case 36294:return bS;case 36295:return wS;case 36296:return ES;case 35678:case 36198:case 36298:case 36306:case 35682:return TS;case 35679:case 36299:case 36307:return AS;case 35680:case 36300:case 36308:case 36293:return CS;case 36289:case 36303:case 36311:case 36292:return RS}}var Fc=class{constructor(e,t,n){this.id=e,this.addr=n,this.cache=[],this.type=t.type,this.setValue=hS(t.type)}},Nc=class{constructor(e,t,n){this.id=e,this.addr=n,this.cache=[],this.type=t.type,this.size=t.size,this.setValue=PS(t.type)}},Uc=class{constructor(e){this.id=e,this.seq=[],this.map={}}setValue(e,t,n){let s=this.seq;for(let o=0,c=s.length;o!==c;++o){let h=s[o];h.setValue(e,t[h.id],n)}}},Lc=/(\w+)(\])?(\[|\.)?/g;function od(i,e){i.seq.push(e),i.map[e.id]=e}function IS(i,e,t){let n=i.name,s=n.length;for(Lc.lastIndex=0;;){let o=Lc.exec(n),c=Lc.lastIndex,h=o[1],f=o[2]==="]",d=o[3];if(f&&(h=h|0),d===void 0||d==="["&&c+2===s){od(t,d===void 0?new Fc(h,i,e):new Nc(h,i,e));break}else{let v=t.map[h];v===void 0&&(v=new Uc(h),od(t,v)),t=v}}}var zr=class{constructor(e,t){this.seq=[],this.map={};let n=e.getProgramParameter(t,e.ACTIVE_UNIFORMS);for(let c=0;c<n;++c){let h=e.getActiveUniform(t,c),f=e.getUniformLocation(t,h.name);IS(h,f,this)}let s=[],o=[];for(let c of this.seq)c.type===e.SAMPLER_2D_SHADOW||c.type===e.SAMPLER_CUBE_SHADOW||c.type===e.SAMPLER_2D_ARRAY_SHADOW?s.push(c):o.push(c);s.length>0&&(this.seq=s.concat(o))}setValue(e,t,n,s){let o=this.map[t];o!==void 0&&o.setValue(e,n,s)}setOptional(e,t,n){let s=t[n];s!==void 0&&this.setValue(e,n,s)}static upload(e,t,n,s){for(let o=0,c=t.length;o!==c;++o){let h=t[o],f=n[h.id];f.needsUpdate!==!1&&h.setValue(e,f.value,s)}}static seqWithValue(e,t){let n=[];for(let s=0,o=e.length;s!==o;++s){let c=e[s];c.id in t&&n.push(c)}return n}};function ld(i,e,t){let n=i.createShader(e);return i.shaderSource(n,t),i.compileShader(n),n}var LS=37297,DS=0;function FS(i,e){let t=i.split(`
+`),n=[],s=Math.max(e-6,0),o=Math.min(e+6,t.length);for(let c=s;c<o;c++){let h=c+1;n.push(`${h===e?">":" "} ${h}: ${t[c]}`)}return n.join(`
+`)}var cd=new at;function NS(i){yt._getMatrix(cd,yt.workingColorSpace,i);let e=`mat3( ${cd.elements.map(t=>t.toFixed(4))} )`;switch(yt.getTransfer(i)){case rs:return[e,"LinearTransferOETF"];case Ct:return[e,"sRGBTransferOETF"];default:return et("WebGLProgram: Unsupported color space: ",i),[e,"LinearTransferOETF"]}}function hd(i,e,t){let n=i.getShaderParameter(e,i.COMPILE_STATUS),o=(i.getShaderInfoLog(e)||"").trim();if(n&&o==="")return"";let c=/ERROR: 0:(\d+)/.exec(o);if(c){let h=parseInt(c[1]);return t.toUpperCase()+`
+
+`+o+`
+
+`+FS(i.getShaderSource(e),h)}else return o}function US(i,e){let t=NS(e);return[`vec4 ${i}( vec4 value ) {`,`	return ${t[1]}( vec4( ${t[0]} * value.rgb, value.a ) );`,"}"].join(`
+`)}var OS={[sc]:"Linear",[ac]:"Reinhard",[oc]:"Cineon",[lc]:"ACESFilmic",[hc]:"AgX",[uc]:"Neutral",[cc]:"Custom"};function BS(i,e){let t=OS[e];return t===void 0?(et("WebGLProgram: Unsupported toneMapping:",e),"vec3 "+i+"( vec3 color ) { return LinearToneMapping( color ); }"):"vec3 "+i+"( vec3 color ) { return "+t+"ToneMapping( color ); }"}var jo=new Q;function kS(){yt.getLuminanceCoefficients(jo);let i=jo.x.toFixed(4),e=jo.y.toFixed(4),t=jo.z.toFixed(4);return["float luminance( const in vec3 rgb ) {",`	const vec3 weights = vec3( ${i}, ${e}, ${t} );`,"	return dot( weights, rgb );","}"].join(`
+`)}function zS(i){return[i.extensionClipCullDistance?"#extension GL_ANGLE_clip_cull_distance : require":"",i.extensionMultiDraw?"#extension GL_ANGLE_multi_draw : require":""].filter(Ls).join(`
+`)}function GS(i){let e=[];for(let t in i){let n=i[t];n!==!1&&e.push("#define "+t+" "+n)}return e.join(`
+`)}function VS(i,e){let t={},n=i.getProgramParameter(e,i.ACTIVE_ATTRIBUTES);for(let s=0;s<n;s++){let o=i.getActiveAttrib(e,s),c=o.name,h=1;o.type===i.FLOAT_MAT2&&(h=2),o.type===i.FLOAT_MAT3&&(h=3),o.type===i.FLOAT_MAT4&&(h=4),t[c]={type:o.type,location:i.getAttribLocation(e,c),locationSize:h}}return t}function Ls(i){return i!==""}function ud(i,e){let t=e.numSpotLightShadows+e.numSpotLightMaps-e.numSpotLightShadowsWithMaps;return i.replace(/NUM_SUN_LIGHTS/g,e.numSunLights).replace(/NUM_DIR_LIGHTS/g,e.numDirLights).replace(/NUM_SPOT_LIGHTS/g,e.numSpotLights).replace(/NUM_SPOT_LIGHT_MAPS/g,e.numSpotLightMaps).replace(/NUM_SPOT_LIGHT_COORDS/g,t).replace(/NUM_RECT_AREA_LIGHTS/g,e.numRectAreaLights).replace(/NUM_POINT_LIGHTS/g,e.numPointLights).replace(/NUM_HEMI_LIGHTS/g,e.numHemiLights).replace(/NUM_SUN_LIGHT_SHADOWS/g,e.numSunLightShadows).replace(/NUM_DIR_LIGHT_SHADOWS/g,e.numDirLightShadows).replace(/NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS/g,e.numSpotLightShadowsWithMaps).replace(/NUM_SPOT_LIGHT_SHADOWS/g,e.numSpotLightShadows).replace(/NUM_POINT_LIGHT_SHADOWS/g,e.numPointLightShadows).replace(/NUM_LIGHT_PROBE_GRIDS/g,e.numLightProbeGrids)}function dd(i,e){return i.replace(/NUM_CLIPPING_PLANES/g,e.numClippingPlanes).replace(/UNION_CLIPPING_PLANES/g,e.numClippingPlanes-e.numClipIntersection)}var HS=/^[ \t]*#include +<([\w\d./]+)>/gm;function Oc(i){return i.replace(HS,WS)}function WS(i,e){let t=mt[e];if(t===void 0)throw new Error("THREE.WebGLProgram: Can not resolve #include <"+e+">");return Oc(t)}var XS=/#pragma unroll_loop_start\s+for\s*\(\s*int\s+i\s*=\s*(\d+)\s*;\s*i\s*<\s*(\d+)\s*;\s*i\s*\+\+\s*\)\s*{([\s\S]+?)}\s+#pragma unroll_loop_end/g;function fd(i){return i.replace(XS,$S)}function $S(i,e,t,n){let s="";for(let o=parseInt(e);o<parseInt(t);o++)s+=n.replace(/\[\s*i\s*\]/g,"[ "+o+" ]").replace(/UNROLLED_LOOP_INDEX/g,o);return s}function pd(i){let e=`precision ${i.precision} float;
+	precision ${i.precision} int;
+	precision ${i.precision} sampler2D;
+	precision ${i.precision} samplerCube;
+	precision ${i.precision} sampler3D;
+	precision ${i.precision} sampler2DArray;
+	precision ${i.precision} sampler2DShadow;
+	precision ${i.precision} samplerCubeShadow;
+	precision ${i.precision} sampler2DArrayShadow;
+	precision ${i.precision} isampler2D;
+	precision ${i.precision} isampler3D;
+	precision ${i.precision} isamplerCube;
+	precision ${i.precision} isampler2DArray;
+	precision ${i.precision} usampler2D;
+	precision ${i.precision} usampler3D;
+	precision ${i.precision} usamplerCube;
+	precision ${i.precision} usampler2DArray;
+	`;return i.precision==="highp"?e+=`
+#define HIGH_PRECISION`:i.precision==="mediump"?e+=`
+#define MEDIUM_PRECISION`:i.precision==="lowp"&&(e+=`
+#define LOW_PRECISION`),e}var qS={[Ki]:"SHADOWMAP_TYPE_PCF",[Nr]:"SHADOWMAP_TYPE_VSM"};function YS(i){return qS[i.shadowMapType]||"SHADOWMAP_TYPE_BASIC"}var jS={[Or]:"ENVMAP_MODE_REFRACTION"};function JS(i){return i.envMap===!1?"ENVMAP_MODE_REFLECTION":jS[i.envMapMode]||"ENVMAP_MODE_REFLECTION"}var ZS={[rc]:"ENVMAP_BLENDING_MULTIPLY",[Pu]:"ENVMAP_BLENDING_MIX",[Iu]:"ENVMAP_BLENDING_ADD"};function KS(i){return i.envMap===!1?"ENVMAP_BLENDING_NONE":ZS[i.combine]||"ENVMAP_BLENDING_NONE"}function QS(i,e,t,n){let s=i.getContext(),o=t.defines,c=t.vertexShader,h=t.fragmentShader,f=YS(t),d=t.envMapPMREM===!0?"ENVMAP_TYPE_PMREM":"ENVMAP_TYPE_CUBE",m=JS(t),v=KS(t),g=zS(t),S=GS(o),w=s.createProgram(),R,x,y=t.glslVersion?"#version "+t.glslVersion+`
+`:"";t.isRawShaderMaterial?(R=["#define SHADER_TYPE "+t.shaderType,"#define SHADER_NAME "+t.shaderName,S].filter(Ls).join(`
+`),R.length>0&&(R+=`
+`),x=["#define SHADER_TYPE "+t.shaderType,"#define SHADER_NAME "+t.shaderName,S].filter(Ls).join(`
+`),x.length>0&&(x+=`
+`)):(R=[pd(t),"#define SHADER_TYPE "+t.shaderType,"#define SHADER_NAME "+t.shaderName,S,t.extensionClipCullDistance?"#define USE_CLIP_DISTANCE":"",t.batching?"#define USE_BATCHING":"",t.batchingColor?"#define USE_BATCHING_COLOR":"",t.instancing?"#define USE_INSTANCING":"",t.instancingColor?"#define USE_INSTANCING_COLOR":"",t.instancingMorph?"#define USE_INSTANCING_MORPH":"",t.useFog&&t.fog?"#define USE_FOG":"",t.useFog&&t.fogExp2?"#define FOG_EXP2":"",t.map?"#define USE_MAP":"",t.envMap?"#define USE_ENVMAP":"",t.envMap?"#define "+m:"",t.lightMap?"#define USE_LIGHTMAP":"",t.aoMap?"#define USE_AOMAP":"",t.bumpMap?"#define USE_BUMPMAP":"",t.normalMap?"#define USE_NORMALMAP":"",t.normalMapObjectSpace?"#define USE_NORMALMAP_OBJECTSPACE":"",t.normalMapTangentSpace?"#define USE_NORMALMAP_TANGENTSPACE":"",t.displacementMap?"#define USE_DISPLACEMENTMAP":"",t.emissiveMap?"#define USE_EMISSIVEMAP":"",t.anisotropy?"#define USE_ANISOTROPY":"",t.anisotropyMap?"#define USE_ANISOTROPYMAP":"",t.clearcoatMap?"#define USE_CLEARCOATMAP":"",t.clearcoatRoughnessMap?"#define USE_CLEARCOAT_ROUGHNESSMAP":"",t.clearcoatNormalMap?"#define USE_CLEARCOAT_NORMALMAP":"",t.diffuseRoughnessMap?"#define USE_DIFFUSE_ROUGHNESSMAP":"",t.iridescenceMap?"#define USE_IRIDESCENCEMAP":"",t.iridescenceThicknessMap?"#define USE_IRIDESCENCE_THICKNESSMAP":"",t.specularMap?"#define USE_SPECULARMAP":"",t.specularColorMap?"#define USE_SPECULAR_COLORMAP":"",t.specularIntensityMap?"#define USE_SPECULAR_INTENSITYMAP":"",t.roughnessMap?"#define USE_ROUGHNESSMAP":"",t.metalnessMap?"#define USE_METALNESSMAP":"",t.alphaMap?"#define USE_ALPHAMAP":"",t.alphaHash?"#define USE_ALPHAHASH":"",t.transmission?"#define USE_TRANSMISSION":"",t.transmissionMap?"#define USE_TRANSMISSIONMAP":"",t.thicknessMap?"#define USE_THICKNESSMAP":"",t.sheenColorMap?"#define USE_SHEEN_COLORMAP":"",t.sheenRoughnessMap?"#define USE_SHEEN_ROUGHNESSMAP":"",t.mapUv?"#define MAP_UV "+t.mapUv:"",t.alphaMapUv?"#define ALPHAMAP_UV "+t.alphaMapUv:"",t.lightMapUv?"#define LIGHTMAP_UV "+t.lightMapUv:"",t.aoMapUv?"#define AOMAP_UV "+t.aoMapUv:"",t.emissiveMapUv?"#define EMISSIVEMAP_UV "+t.emissiveMapUv:"",t.bumpMapUv?"#define BUMPMAP_UV "+t.bumpMapUv:"",t.normalMapUv?"#define NORMALMAP_UV "+t.normalMapUv:"",t.displacementMapUv?"#define DISPLACEMENTMAP_UV "+t.displacementMapUv:"",t.metalnessMapUv?"#define METALNESSMAP_UV "+t.metalnessMapUv:"",t.roughnessMapUv?"#define ROUGHNESSMAP_UV "+t.roughnessMapUv:"",t.anisotropyMapUv?"#define ANISOTROPYMAP_UV "+t.anisotropyMapUv:"",t.clearcoatMapUv?"#define CLEARCOATMAP_UV "+t.clearcoatMapUv:"",t.clearcoatNormalMapUv?"#define CLEARCOAT_NORMALMAP_UV "+t.clearcoatNormalMapUv:"",t.clearcoatRoughnessMapUv?"#define CLEARCOAT_ROUGHNESSMAP_UV "+t.clearcoatRoughnessMapUv:"",t.diffuseRoughnessMapUv?"#define DIFFUSE_ROUGHNESSMAP_UV "+t.diffuseRoughnessMapUv:"",t.iridescenceMapUv?"#define IRIDESCENCEMAP_UV "+t.iridescenceMapUv:"",t.iridescenceThicknessMapUv?"#define IRIDESCENCE_THICKNESSMAP_UV "+t.iridescenceThicknessMapUv:"",t.sheenColorMapUv?"#define SHEEN_COLORMAP_UV "+t.sheenColorMapUv:"",t.sheenRoughnessMapUv?"#define SHEEN_ROUGHNESSMAP_UV "+t.sheenRoughnessMapUv:"",t.specularMapUv?"#define SPECULARMAP_UV "+t.specularMapUv:"",t.specularColorMapUv?"#define SPECULAR_COLORMAP_UV "+t.specularColorMapUv:"",t.specularIntensityMapUv?"#define SPECULAR_INTENSITYMAP_UV "+t.specularIntensityMapUv:"",t.transmissionMapUv?"#define TRANSMISSIONMAP_UV "+t.transmissionMapUv:"",t.thicknessMapUv?"#define THICKNESSMAP_UV "+t.thicknessMapUv:"",t.vertexTangents&&t.flatShading===!1?"#define USE_TANGENT":"",t.vertexNormals?"#define HAS_NORMAL":"",t.vertexColors?"#define USE_COLOR":"",t.vertexAlphas?"#define USE_COLOR_ALPHA":"",t.vertexUv1s?"#define USE_UV1":"",t.vertexUv2s?"#define USE_UV2":"",t.vertexUv3s?"#define USE_UV3":"",t.pointsUvs?"#define USE_POINTS_UV":"",t.flatShading?"#define FLAT_SHADED":"",t.skinning?"#define USE_SKINNING":"",t.morphTargets?"#define USE_MORPHTARGETS":"",t.morphNormals&&t.flatShading===!1?"#define USE_MORPHNORMALS":"",t.morphColors?"#define USE_MORPHCOLORS":"",t.morphTargetsCount>0?"#define MORPHTARGETS_TEXTURE_STRIDE "+t.morphTextureStride:"",t.morphTargetsCount>0?"#define MORPHTARGETS_COUNT "+t.morphTargetsCount:"",t.doubleSided?"#define DOUBLE_SIDED":"",t.flipSided?"#define FLIP_SIDED":"",t.shadowMapEnabled?"#define USE_SHADOWMAP":"",t.shadowMapEnabled?"#define "+f:"",t.sizeAttenuation?"#define USE_SIZEATTENUATION":"",t.numLightProbes>0?"#define USE_LIGHT_PROBES":"",t.logarithmicDepthBuffer?"#define USE_LOGARITHMIC_DEPTH_BUFFER":"",t.reversedDepthBuffer?"#define USE_REVERSED_DEPTH_BUFFER":"","uniform mat4 modelMatrix;","uniform mat4 modelViewMatrix;","uniform mat4 projectionMatrix;","uniform mat4 viewMatrix;","uniform mat3 normalMatrix;","uniform vec3 cameraPosition;","uniform bool isOrthographic;","#ifdef USE_INSTANCING","	attribute mat4 instanceMatrix;","#endif","#ifdef USE_INSTANCING_COLOR","	attribute vec3 instanceColor;","#endif","#ifdef USE_INSTANCING_MORPH","	uniform sampler2D morphTexture;","#endif","attribute vec3 position;","attribute vec3 normal;","attribute vec2 uv;","#ifdef USE_UV1","	attribute vec2 uv1;","#endif","#ifdef USE_UV2","	attribute vec2 uv2;","#endif","#ifdef USE_UV3","	attribute vec2 uv3;","#endif","#ifdef USE_TANGENT","	attribute vec4 tangent;","#endif","#if defined( USE_COLOR_ALPHA )","	attribute vec4 color;","#elif defined( USE_COLOR )","	attribute vec3 color;","#endif","#ifdef USE_SKINNING","	attribute vec4 skinIndex;","	attribute vec4 skinWeight;","#endif",`
+`].filter(Ls).join(`
+`),x=[pd(t),"#define SHADER_TYPE "+t.shaderType,"#define SHADER_NAME "+t.shaderName,S,t.useFog&&t.fog?"#define USE_FOG":"",t.useFog&&t.fogExp2?"#define FOG_EXP2":"",t.alphaToCoverage?"#define ALPHA_TO_COVERAGE":"",t.map?"#define USE_MAP":"",t.matcap?"#define USE_MATCAP":"",t.envMap?"#define USE_ENVMAP":"",t.envMap?"#define "+d:"",t.envMap?"#define "+m:"",t.envMap?"#define "+v:"",t.envMapPMREM?"#define ENVMAP_MAX_LOD "+t.envMapMaxLod+".0":"",t.envMapPMREM?"#define ENVMAP_SIZE "+t.envMapSize+".0":"",t.lightMap?"#define USE_LIGHTMAP":"",t.aoMap?"#define USE_AOMAP":"",t.bumpMap?"#define USE_BUMPMAP":"",t.normalMap?"#define USE_NORMALMAP":"",t.normalMapObjectSpace?"#define USE_NORMALMAP_OBJECTSPACE":"",t.normalMapTangentSpace?"#define USE_NORMALMAP_TANGENTSPACE":"",t.packedNormalMap?"#define USE_PACKED_NORMALMAP":"",t.emissiveMap?"#define USE_EMISSIVEMAP":"",t.anisotropy?"#define USE_ANISOTROPY":"",t.anisotropyMap?"#define USE_ANISOTROPYMAP":"",t.clearcoat?"#define USE_CLEARCOAT":"",t.clearcoatMap?"#define USE_CLEARCOATMAP":"",t.clearcoatRoughnessMap?"#define USE_CLEARCOAT_ROUGHNESSMAP":"",t.clearcoatNormalMap?"#define USE_CLEARCOAT_NORMALMAP":"",t.diffuseRoughness?"#define USE_DIFFUSE_ROUGHNESS":"",t.diffuseRoughnessMap?"#define USE_DIFFUSE_ROUGHNESSMAP":"",t.dispersion?"#define USE_DISPERSION":"",t.retroreflection?"#define USE_RETROREFLECTION":"",t.iridescence?"#define USE_IRIDESCENCE":"",t.iridescenceMap?"#define USE_IRIDESCENCEMAP":"",t.iridescenceThicknessMap?"#define USE_IRIDESCENCE_THICKNESSMAP":"",t.specularMap?"#define USE_SPECULARMAP":"",t.specularColorMap?"#define USE_SPECULAR_COLORMAP":"",t.specularIntensityMap?"#define USE_SPECULAR_INTENSITYMAP":"",t.roughnessMap?"#define USE_ROUGHNESSMAP":"",t.metalnessMap?"#define USE_METALNESSMAP":"",t.alphaMap?"#define USE_ALPHAMAP":"",t.alphaTest?"#define USE_ALPHATEST":"",t.alphaHash?"#define USE_ALPHAHASH":"",t.sheen?"#define USE_SHEEN":"",t.sheenColorMap?"#define USE_SHEEN_COLORMAP":"",t.sheenRoughnessMap?"#define USE_SHEEN_ROUGHNESSMAP":"",t.transmission?"#define USE_TRANSMISSION":"",t.transmissionMap?"#define USE_TRANSMISSIONMAP":"",t.thicknessMap?"#define USE_THICKNESSMAP":"",t.vertexTangents&&t.flatShading===!1?"#define USE_TANGENT":"",t.vertexColors||t.instancingColor?"#define USE_COLOR":"",t.vertexAlphas||t.batchingColor?"#define USE_COLOR_ALPHA":"",t.vertexUv1s?"#define USE_UV1":"",t.vertexUv2s?"#define USE_UV2":"",t.vertexUv3s?"#define USE_UV3":"",t.pointsUvs?"#define USE_POINTS_UV":"",t.gradientMap?"#define USE_GRADIENTMAP":"",t.flatShading?"#define FLAT_SHADED":"",t.doubleSided?"#define DOUBLE_SIDED":"",t.flipSided?"#define FLIP_SIDED":"",t.shadowMapEnabled?"#define USE_SHADOWMAP":"",t.shadowMapEnabled?"#define "+f:"",t.premultipliedAlpha?"#define PREMULTIPLIED_ALPHA":"",t.numLightProbes>0?"#define USE_LIGHT_PROBES":"",t.decodeVideoTexture?"#define DECODE_VIDEO_TEXTURE":"",t.decodeVideoTextureEmissive?"#define DECODE_VIDEO_TEXTURE_EMISSIVE":"",t.logarithmicDepthBuffer?"#define USE_LOGARITHMIC_DEPTH_BUFFER":"",t.reversedDepthBuffer?"#define USE_REVERSED_DEPTH_BUFFER":"","uniform mat4 viewMatrix;","uniform vec3 cameraPosition;","uniform bool isOrthographic;",t.toneMapping!==ri?"#define TONE_MAPPING":"",t.toneMapping!==ri?mt.tonemapping_pars_fragment:"",t.toneMapping!==ri?BS("toneMapping",t.toneMapping):"",t.dithering?"#define DITHERING":"",t.opaque?"#define OPAQUE":"",mt.colorspace_pars_fragment,US("linearToOutputTexel",t.outputColorSpace),kS(),t.useDepthPacking?"#define DEPTH_PACKING "+t.depthPacking:"",`
+`].filter(Ls).join(`
+`)),c=Oc(c),c=ud(c,t),c=dd(c,t),h=Oc(h),h=ud(h,t),h=dd(h,t),c=fd(c),h=fd(h),t.isRawShaderMaterial!==!0&&(y=`#version 300 es
+`,R=[g,"#define attribute in","#define varying out","#define texture2D texture"].join(`
+`)+`
+`+R,x=["#define varying in",t.glslVersion===bc?"":"layout(location = 0) out highp vec4 pc_fragColor;",t.glslVersion===bc?"":"#define gl_FragColor pc_fragColor","#define gl_FragDepthEXT gl_FragDepth","#define texture2D texture","#define textureCube texture","#define texture2DProj textureProj","#define texture2DLodEXT textureLod","#define texture2DProjLodEXT textureProjLod","#define textureCubeLodEXT textureLod","#define texture2DGradEXT textureGrad","#define texture2DProjGradEXT textureProjGrad","#define textureCubeGradEXT textureGrad"].join(`
+`)+`
+`+x);let I=y+R+c,O=y+x+h,P=ld(s,s.VERTEX_SHADER,I),U=ld(s,s.FRAGMENT_SHADER,O);s.attachShader(w,P),s.attachShader(w,U),t.index0AttributeName!==void 0?s.bindAttribLocation(w,0,t.index0AttributeName):t.hasPositionAttribute===!0&&s.bindAttribLocation(w,0,"position"),s.linkProgram(w);function N(k){if(i.debug.checkShaderErrors){let Y=s.getProgramInfoLog(w)||"",J=s.getShaderInfoLog(P)||"",ee=s.getShaderInfoLog(U)||"",z=Y.trim(),ie=J.trim(),G=ee.trim(),ne=!0,Se=!0;if(s.getProgramParameter(w,s.LINK_STATUS)===!1)if(ne=!1,typeof i.debug.onShaderError=="function")i.debug.onShaderError(s,w,P,U);else{let re=hd(s,P,"vertex"),H=hd(s,U,"fragment");tt("WebGLProgram: Shader Error "+s.getError()+" - VALIDATE_STATUS "+s.getProgramParameter(w,s.VALIDATE_STATUS)+`
+
+Material Name: `+k.name+`
+Material Type: `+k.type+`
+
+Program Info Log: `+z+`
+`+re+`
+`+H)}else z!==""?et("WebGLProgram: Program Info Log:",z):(ie===""||G==="")&&(Se=!1);Se&&(k.diagnostics={runnable:ne,programLog:z,vertexShader:{log:ie,prefix:R},fragmentShader:{log:G,prefix:x}})}s.deleteShader(P),s.deleteShader(U),b=new zr(s,w),L=VS(s,w)}let b;this.getUniforms=function(){return b===void 0&&N(this),b};let L;this.getAttributes=function(){return L===void 0&&N(this),L};let q=t.rendererExtensionParallelShaderCompile===!1;return this.isReady=function(){return q===!1&&(q=s.getProgramParameter(w,LS)),q},this.destroy=function(){n.releaseStatesOfProgram(this),s.deleteProgram(w),this.program=void 0},this.type=t.shaderType,this.name=t.shaderName,this.id=DS++,this.cacheKey=e,this.usedTimes=1,this.program=w,this.vertexShader=P,this.fragmentShader=U,this}var eM=0,Bc=class{constructor(){this.shaderCache=new Map,this.materialCache=new Map}update(e,t,n){let s=this._getShaderCacheForMaterial(e);return s.has(t)===!1&&(s.add(t),t.usedTimes++),s.has(n)===!1&&(s.add(n),n.usedTimes++),this}remove(e){let t=this.materialCache.get(e);for(let n of t)n.usedTimes--,n.usedTimes===0&&this.shaderCache.delete(n.code);return this.materialCache.delete(e),this}getVertexShaderStage(e){return this._getShaderStage(e.vertexShader)}getFragmentShaderStage(e){return this._getShaderStage(e.fragmentShader)}dispose(){this.shaderCache.clear(),this.materialCache.clear()}_getShaderCacheForMaterial(e){let t=this.materialCache,n=t.get(e);return n===void 0&&(n=new Set,t.set(e,n)),n}_getShaderStage(e){let t=this.shaderCache,n=t.get(e);return n===void 0&&(n=new kc(e),t.set(e,n)),n}},kc=class{constructor(e){this.id=eM++,this.code=e,this.usedTimes=0}};function tM(i){return i===Ui||i===Rs||i===Ps}function nM(i,e,t,n,s,o){let c=new Cr,h=new Bc,f=new Set,d=[],m=new Map,v=n.logarithmicDepthBuffer,g={MeshDepthMaterial:"depth",MeshDistanceMaterial:"distance",MeshNormalMaterial:"normal",MeshBasicMaterial:"basic",MeshLambertMaterial:"lambert",MeshPhongMaterial:"phong",MeshToonMaterial:"toon",MeshStandardMaterial:"physical",MeshPhysicalMaterial:"physical",MeshMatcapMaterial:"matcap",LineBasicMaterial:"basic",LineDashedMaterial:"dashed",PointsMaterial:"points",ShadowMaterial:"shadow",SpriteMaterial:"sprite"};function S(b){return f.add(b),b===0?"uv":`uv${b}`}function w(b,L,q,k,Y,J){let ee=k.fog,z=Y.geometry,ie=b.isMeshStandardMaterial||b.isMeshLambertMaterial||b.isMeshPhongMaterial?k.environment:null,G=b.isMeshStandardMaterial||b.isMeshLambertMaterial&&!b.envMap||b.isMeshPhongMaterial&&!b.envMap,ne=e.get(b.envMap||ie,G),Se=g[b.type],re=n.precision;b.precision!==null&&(re=n.getMaxPrecision(b.precision),re!==b.precision&&et("WebGLProgram.getParameters:",b.precision,"not supported, using",re,"instead."));let H=z.morphAttributes.position||z.morphAttributes.normal||z.morphAttributes.color,me=H!==void 0?H.length:0,We=0;z.morphAttributes.position!==void 0&&(We=1),z.morphAttributes.normal!==void 0&&(We=2),z.morphAttributes.color!==void 0&&(We=3);let nt,ue,Fe,Pe;if(Se){let Oe=ai[Se];nt=Oe.vertexShader,ue=Oe.fragmentShader}else{nt=b.vertexShader,ue=b.fragmentShader;let Oe=h.getVertexShaderStage(b),Et=h.getFragmentShaderStage(b);h.update(b,Oe,Et),Fe=Oe.id,Pe=Et.id}let Ye=i.getRenderTarget(),Ue=i.state.buffers.depth.getReversed(),rt=Y.isInstancedMesh===!0,Gt=Y.isBatchedMesh===!0,Qe=!!b.map,wt=!!b.matcap,Tt=!!ne,dt=Tt&&ne.isPMREMTexture===!0,Vt=!!b.aoMap,ht=!!b.lightMap,Rt=!!b.bumpMap&&b.wireframe===!1,St=!!b.normalMap,Qt=!!b.displacementMap,Le=!!b.emissiveMap,$e=!!b.metalnessMap,an=!!b.roughnessMap,en=b.anisotropy>0,W=b.clearcoat>0,fn=b.diffuseRoughness>0,At=b.dispersion>0,Nt=b.retroreflectivity>0,De=b.iridescence>0,Xt=b.sheen>0,je=b.transmission>0,Je=en&&!!b.anisotropyMap,D=W&&!!b.clearcoatMap,T=W&&!!b.clearcoatNormalMap,j=W&&!!b.clearcoatRoughnessMap,ve=fn&&!!b.diffuseRoughnessMap,de=De&&!!b.iridescenceMap,pe=De&&!!b.iridescenceThicknessMap,Me=Xt&&!!b.sheenColorMap,ae=Xt&&!!b.sheenRoughnessMap,le=!!b.specularMap,Ce=!!b.specularColorMap,B=!!b.specularIntensityMap,he=je&&!!b.transmissionMap,se=je&&!!b.thicknessMap,Re=!!b.gradientMap,Ee=!!b.alphaMap,Ae=b.alphaTest>0,Xe=!!b.alphaHash,ot=!!b.extensions,we=ri;b.toneMapped&&(Ye===null||Ye.isXRRenderTarget===!0)&&(we=i.toneMapping);let qe=dt?ne.isCompressedCubeTexture?ne.image[0].mipmaps:ne.mipmaps:null,lt={shaderID:Se,shaderType:b.type,shaderName:b.name,vertexShader:nt,fragmentShader:ue,defines:b.defines,customVertexShaderID:Fe,customFragmentShaderID:Pe,isRawShaderMaterial:b.isRawShaderMaterial===!0,glslVersion:b.glslVersion,precision:re,batching:Gt,batchingColor:Gt&&Y._colorsTexture!==null,instancing:rt,instancingColor:rt&&Y.instanceColor!==null,instancingMorph:rt&&Y.morphTexture!==null,outputColorSpace:Ye===null?i.outputColorSpace:Ye.isXRRenderTarget===!0?Ye.texture.colorSpace:yt.workingColorSpace,alphaToCoverage:!!b.alphaToCoverage,map:Qe,matcap:wt,envMap:Tt,envMapMode:Tt&&ne.mapping,envMapPMREM:dt,envMapMaxLod:dt?qe.length-1:null,envMapSize:dt?qe[0].width:null,aoMap:Vt,lightMap:ht,bumpMap:Rt,normalMap:St,displacementMap:Qt,emissiveMap:Le,normalMapObjectSpace:St&&b.normalMapType===Fu,normalMapTangentSpace:St&&b.normalMapType===$o,packedNormalMap:St&&b.normalMapType===$o&&tM(b.normalMap.format),metalnessMap:$e,roughnessMap:an,anisotropy:en,anisotropyMap:Je,clearcoat:W,clearcoatMap:D,clearcoatNormalMap:T,clearcoatRoughnessMap:j,diffuseRoughness:fn,diffuseRoughnessMap:ve,dispersion:At,retroreflection:Nt,iridescence:De,iridescenceMap:de,iridescenceThicknessMap:pe,sheen:Xt,sheenColorMap:Me,sheenRoughnessMap:ae,specularMap:le,specularColorMap:Ce,specularIntensityMap:B,transmission:je,transmissionMap:he,thicknessMap:se,gradientMap:Re,opaque:b.transparent===!1&&b.blending===Ur&&b.alphaToCoverage===!1,alphaMap:Ee,alphaTest:Ae,alphaHash:Xe,combine:b.combine,mapUv:Qe&&S(b.map.channel),aoMapUv:Vt&&S(b.aoMap.channel),lightMapUv:ht&&S(b.lightMap.channel),bumpMapUv:Rt&&S(b.bumpMap.channel),normalMapUv:St&&S(b.normalMap.channel),displacementMapUv:Qt&&S(b.displacementMap.channel),emissiveMapUv:Le&&S(b.emissiveMap.channel),metalnessMapUv:$e&&S(b.metalnessMap.channel),roughnessMapUv:an&&S(b.roughnessMap.channel),anisotropyMapUv:Je&&S(b.anisotropyMap.channel),clearcoatMapUv:D&&S(b.clearcoatMap.channel),clearcoatNormalMapUv:T&&S(b.clearcoatNormalMap.channel),clearcoatRoughnessMapUv:j&&S(b.clearcoatRoughnessMap.channel),diffuseRoughnessMapUv:ve&&S(b.diffuseRoughnessMap.channel),iridescenceMapUv:de&&S(b.iridescenceMap.channel),iridescenceThicknessMapUv:pe&&S(b.iridescenceThicknessMap.channel),sheenColorMapUv:Me&&S(b.sheenColorMap.channel),sheenRoughnessMapUv:ae&&S(b.sheenRoughnessMap.channel),specularMapUv:le&&S(b.specularMap.channel),specularColorMapUv:Ce&&S(b.specularColorMap.channel),specularIntensityMapUv:B&&S(b.specularIntensityMap.channel),transmissionMapUv:he&&S(b.transmissionMap.channel),thicknessMapUv:se&&S(b.thicknessMap.channel),alphaMapUv:Ee&&S(b.alphaMap.channel),vertexTangents:!!z.attributes.tangent&&(St||en),vertexNormals:!!z.attributes.normal,vertexColors:b.vertexColors,vertexAlphas:b.vertexColors===!0&&!!z.attributes.color&&z.attributes.color.itemSize===4,pointsUvs:Y.isPoints===!0&&!!z.attributes.uv&&(Qe||Ee),fog:!!ee,useFog:b.fog===!0,fogExp2:!!ee&&ee.isFogExp2,flatShading:b.wireframe===!1&&(b.flatShading===!0||z.attributes.normal===void 0&&St===!1&&(b.isMeshLambertMaterial||b.isMeshPhongMaterial||b.isMeshStandardMaterial||b.isMeshPhysicalMaterial)),sizeAttenuation:b.sizeAttenuation===!0,logarithmicDepthBuffer:v,reversedDepthBuffer:Ue,skinning:Y.isSkinnedMesh===!0,hasPositionAttribute:z.attributes.position!==void 0,morphTargets:z.morphAttributes.position!==void 0,morphNormals:z.morphAttributes.normal!==void 0,morphColors:z.morphAttributes.color!==void 0,morphTargetsCount:me,morphTextureStride:We,numSunLights:L.sun.length,numDirLights:L.directional.length,numPointLights:L.point.length,numSpotLights:L.spot.length,numSpotLightMaps:L.spotLightMap.length,numRectAreaLights:L.rectArea.length,numHemiLights:L.hemi.length,numSunLightShadows:L.sunShadowMap.length,numDirLightShadows:L.directionalShadowMap.length,numPointLightShadows:L.pointShadowMap.length,numSpotLightShadows:L.spotShadowMap.length,numSpotLightShadowsWithMaps:L.numSpotLightShadowsWithMaps,numLightProbes:L.numLightProbes,numLightProbeGrids:J.filter(Oe=>Oe.texture!==null).length,numClippingPlanes:o.numPlanes,numClipIntersection:o.numIntersection,dithering:b.dithering,shadowMapEnabled:i.shadowMap.enabled&&q.length>0,shadowMapType:i.shadowMap.type,toneMapping:we,decodeVideoTexture:Qe&&b.map.isVideoTexture===!0&&yt.getTransfer(b.map.colorSpace)===Ct,decodeVideoTextureEmissive:Le&&b.emissiveMap.isVideoTexture===!0&&yt.getTransfer(b.emissiveMap.colorSpace)===Ct,premultipliedAlpha:b.premultipliedAlpha,doubleSided:b.side===ii,flipSided:b.side===vn,useDepthPacking:b.depthPacking>=0,depthPacking:b.depthPacking||0,index0AttributeName:b.index0AttributeName,extensionClipCullDistance:ot&&b.extensions.clipCullDistance===!0&&t.has("WEBGL_clip_cull_distance"),extensionMultiDraw:(ot&&b.extensions.multiDraw===!0||Gt)&&t.has("WEBGL_multi_draw"),rendererExtensionParallelShaderCompile:t.has("KHR_parallel_shader_compile"),customProgramCacheKey:b.customProgramCacheKey()};return lt.vertexUv1s=f.has(1),lt.vertexUv2s=f.has(2),lt.vertexUv3s=f.has(3),f.clear(),lt}function R(b){let L=[];if(b.shaderID?L.push(b.shaderID):(L.push(b.customVertexShaderID),L.push(b.customFragmentShaderID)),b.defines!==void 0)for(let q in b.defines)L.push(q),L.push(b.defines[q]);return b.isRawShaderMaterial===!1&&(x(L,b),y(L,b),L.push(i.outputColorSpace)),L.push(b.customProgramCacheKey),L.join()}function x(b,L){b.push(L.precision),b.push(L.outputColorSpace),b.push(L.envMapMode),b.push(L.envMapPMREM),b.push(L.envMapMaxLod),b.push(L.envMapSize),b.push(L.mapUv),b.push(L.alphaMapUv),b.push(L.lightMapUv),b.push(L.aoMapUv),b.push(L.bumpMapUv),b.push(L.normalMapUv),b.push(L.displacementMapUv),b.push(L.emissiveMapUv),b.push(L.metalnessMapUv),b.push(L.roughnessMapUv),b.push(L.anisotropyMapUv),b.push(L.clearcoatMapUv),b.push(L.clearcoatNormalMapUv),b.push(L.clearcoatRoughnessMapUv),b.push(L.diffuseRoughnessMapUv),b.push(L.iridescenceMapUv),b.push(L.iridescenceThicknessMapUv),b.push(L.sheenColorMapUv),b.push(L.sheenRoughnessMapUv),b.push(L.specularMapUv),b.push(L.specularColorMapUv),b.push(L.specularIntensityMapUv),b.push(L.transmissionMapUv),b.push(L.thicknessMapUv),b.push(L.combine),b.push(L.fogExp2),b.push(L.sizeAttenuation),b.push(L.morphTargetsCount),b.push(L.numSunLights),b.push(L.numDirLights),b.push(L.numPointLights),b.push(L.numSpotLights),b.push(L.numSpotLightMaps),b.push(L.numHemiLights),b.push(L.numRectAreaLights),b.push(L.numSunLightShadows),b.push(L.numDirLightShadows),b.push(L.numPointLightShadows),b.push(L.numSpotLightShadows),b.push(L.numSpotLightShadowsWithMaps),b.push(L.numLightProbes),b.push(L.numLightProbeGrids),b.push(L.shadowMapType),b.push(L.toneMapping),b.push(L.numClippingPlanes),b.push(L.numClipIntersection),b.push(L.depthPacking)}function y(b,L){c.disableAll(),L.instancing&&c.enable(0),L.instancingColor&&c.enable(1),L.instancingMorph&&c.enable(2),L.matcap&&c.enable(3),L.envMap&&c.enable(4),L.normalMapObjectSpace&&c.enable(5),L.normalMapTangentSpace&&c.enable(6),L.clearcoat&&c.enable(7),L.iridescence&&c.enable(8),L.alphaTest&&c.enable(9),L.vertexColors&&c.enable(10),L.vertexAlphas&&c.enable(11),L.vertexUv1s&&c.enable(12),L.vertexUv2s&&c.enable(13),L.vertexUv3s&&c.enable(14),L.vertexTangents&&c.enable(15),L.anisotropy&&c.enable(16),L.alphaHash&&c.enable(17),L.batching&&c.enable(18),L.dispersion&&c.enable(19),L.retroreflection&&c.enable(24),L.diffuseRoughness&&c.enable(25),L.batchingColor&&c.enable(20),L.gradientMap&&c.enable(21),L.packedNormalMap&&c.enable(22),L.vertexNormals&&c.enable(23),b.push(c.mask),c.disableAll(),L.fog&&c.enable(0),L.useFog&&c.enable(1),L.flatShading&&c.enable(2),L.logarithmicDepthBuffer&&c.enable(3),L.reversedDepthBuffer&&c.enable(4),L.skinning&&c.enable(5),L.morphTargets&&c.enable(6),L.morphNormals&&c.enable(7),L.morphColors&&c.enable(8),L.premultipliedAlpha&&c.enable(9),L.shadowMapEnabled&&c.enable(10),L.doubleSided&&c.enable(11),L.flipSided&&c.enable(12),L.useDepthPacking&&c.enable(13),L.dithering&&c.enable(14),L.transmission&&c.enable(15),L.sheen&&c.enable(16),L.opaque&&c.enable(17),L.pointsUvs&&c.enable(18),L.decodeVideoTexture&&c.enable(19),L.decodeVideoTextureEmissive&&c.enable(20),L.alphaToCoverage&&c.enable(21),L.numLightProbeGrids>0&&c.enable(22),L.hasPositionAttribute&&c.enable(23),b.push(c.mask)}function I(b){let L=g[b.type],q;if(L){let k=ai[L];q=ju.clone(k.uniforms)}else q=b.uniforms;return q}function O(b,L){let q=m.get(L);return q!==void 0?++q.usedTimes:(q=new QS(i,L,b,s),d.push(q),m.set(L,q)),q}function P(b){if(--b.usedTimes===0){let L=d.indexOf(b);d[L]=d[d.length-1],d.pop(),m.delete(b.cacheKey),b.destroy()}}function U(b){h.remove(b)}function N(){h.dispose()}return{getParameters:w,getProgramCacheKey:R,getUniforms:I,acquireProgram:O,releaseProgram:P,releaseShaderCache:U,programs:d,dispose:N}}function iM(){let i=new WeakMap;function e(c){return i.has(c)}function t(c){let h=i.get(c);return h===void 0&&(h={},i.set(c,h)),h}function n(c){i.delete(c)}function s(c,h,f){i.get(c)[h]=f}function o(){i=new WeakMap}return{has:e,get:t,remove:n,update:s,dispose:o}}function rM(i,e){return i.groupOrder!==e.groupOrder?i.groupOrder-e.groupOrder:i.renderOrder!==e.renderOrder?i.renderOrder-e.renderOrder:i.material.id!==e.material.id?i.material.id-e.material.id:i.materialVariant!==e.materialVariant?i.materialVariant-e.materialVariant:i.z!==e.z?i.z-e.z:i.id-e.id}function md(i,e){return i.groupOrder!==e.groupOrder?i.groupOrder-e.groupOrder:i.renderOrder!==e.renderOrder?i.renderOrder-e.renderOrder:i.z!==e.z?e.z-i.z:i.id-e.id}function gd(){let i=[],e=0,t=[],n=[],s=[];function o(){e=0,t.length=0,n.length=0,s.length=0}function c(g){let S=0;return g.isInstancedMesh&&(S+=2),g.isSkinnedMesh&&(S+=1),S}function h(g,S,w,R,x,y){let I=i[e];return I===void 0?(I={id:g.id,object:g,geometry:S,material:w,materialVariant:c(g),groupOrder:R,renderOrder:g.renderOrder,z:x,group:y},i[e]=I):(I.id=g.id,I.object=g,I.geometry=S,I.material=w,I.materialVariant=c(g),I.groupOrder=R,I.renderOrder=g.renderOrder,I.z=x,I.group=y),e++,I}function f(g,S,w,R,x,y,I){I.reversedDepth===!0&&(x=-x);let O=h(g,S,w,R,x,y);w.transmission>0?n.push(O):w.transparent===!0?s.push(O):t.push(O)}function d(g,S,w,R,x,y){let I=h(g,S,w,R,x,y);w.transmission>0?n.unshift(I):w.transparent===!0?s.unshift(I):t.unshift(I)}function m(g,S){t.length>1&&t.sort(g||rM),n.length>1&&n.sort(S||md),s.length>1&&s.sort(S||md)}function v(){for(let g=e,S=i.length;g<S;g++){let w=i[g];if(w.id===null)break;w.id=null,w.object=null,w.geometry=null,w.material=null,w.group=null}}return{opaque:t,transmissive:n,transparent:s,init:o,push:f,unshift:d,finish:v,sort:m}}function sM(){let i=new WeakMap;function e(n,s){let o=i.get(n),c;return o===void 0?(c=new gd,i.set(n,[c])):s>=o.length?(c=new gd,o.push(c)):c=o[s],c}function t(){i=new WeakMap}return{get:e,dispose:t}}function aM(){let i={};return{get:function(e){if(i[e.id]!==void 0)return i[e.id];let t;switch(e.type){case"SunLight":case"DirectionalLight":t={direction:new Q,color:new ut};break;case"SpotLight":t={position:new Q,direction:new Q,color:new ut,distance:0,coneCos:0,penumbraCos:0,decay:0};break;case"PointLight":t={position:new Q,color:new ut,distance:0,decay:0};break;case"HemisphereLight":t={direction:new Q,skyColor:new ut,groundColor:new ut};break;case"RectAreaLight":t={color:new ut,position:new Q,halfWidth:new Q,halfHeight:new Q};break}return i[e.id]=t,t}}}function oM(){let i={};return{get:function(e){if(i[e.id]!==void 0)return i[e.id];let t;switch(e.type){case"SunLight":case"DirectionalLight":t={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new gt};break;case"SpotLight":t={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new gt};break;case"PointLight":t={shadowIntensity:1,shadowBias:0,shadowNormalBias:0,shadowRadius:1,shadowMapSize:new gt,shadowCameraNear:1,shadowCameraFar:1e3};break}return i[e.id]=t,t}}}var lM=0;function cM(i,e){return(e.castShadow?2:0)-(i.castShadow?2:0)+(e.map?1:0)-(i.map?1:0)}function hM(i){let e=new aM,t=oM(),n={version:0,hash:{sunLength:-1,directionalLength:-1,pointLength:-1,spotLength:-1,rectAreaLength:-1,hemiLength:-1,numSunShadows:-1,numDirectionalShadows:-1,numPointShadows:-1,numSpotShadows:-1,numSpotMaps:-1,numLightProbes:-1},ambient:[0,0,0],probe:[],sun:[],sunShadow:[],sunShadowMap:[],sunShadowMatrix:[],sunShadowCascade:[],directional:[],directionalShadow:[],directionalShadowMap:[],directionalShadowMatrix:[],spot:[],spotLightMap:[],spotShadow:[],spotShadowMap:[],spotLightMatrix:[],rectArea:[],rectAreaLTC1:null,rectAreaLTC2:null,point:[],pointShadow:[],pointShadowMap:[],pointShadowMatrix:[],hemi:[],numSpotLightShadowsWithMaps:0,numLightProbes:0};for(let d=0;d<9;d++)n.probe.push(new Q);let s=new Q,o=new It,c=new It;function h(d){let m=0,v=0,g=0;for(let J=0;J<9;J++)n.probe[J].set(0,0,0);let S=0,w=0,R=0,x=0,y=0,I=0,O=0,P=0,U=0,N=0,b=0,L=0,q=0,k=0;d.sort(cM);for(let J=0,ee=d.length;J<ee;J++){let z=d[J],ie=z.color,G=z.intensity,ne=z.distance,Se=null;if(z.shadow&&z.shadow.map&&(z.shadow.map.texture.format===Ui?Se=z.shadow.map.texture:Se=z.shadow.map.depthTexture||z.shadow.map.texture),z.isAmbientLight)m+=ie.r*G,v+=ie.g*G,g+=ie.b*G;else if(z.isLightProbe){for(let re=0;re<9;re++)n.probe[re].addScaledVector(z.sh.coefficients[re],G);k++}else if(z.isSunLight){let re=e.get(z);if(re.color.copy(z.color).multiplyScalar(z.intensity),z.castShadow){let H=z.shadow,me=t.get(z);me.shadowIntensity=H.intensity,me.shadowBias=H.bias,me.shadowNormalBias=H.normalBias,me.shadowRadius=H.radius,me.shadowMapSize.copy(H.mapSize).multiply(H.getFrameExtents()),n.sunShadow[w]=me,n.sunShadowMap[w]=Se;let We=H.getViewportCount();for(let nt=0;nt<We;nt++)n.sunShadowMatrix[R+nt]=H.getMatrix(nt),n.sunShadowCascade[R+nt]=H._cascadeData[nt];R+=We,w++}n.sun[S]=re,S++}else if(z.isDirectionalLight){let re=e.get(z);if(re.color.copy(z.color).multiplyScalar(z.intensity),z.castShadow){let H=z.shadow,me=t.get(z);me.shadowIntensity=H.intensity,me.shadowBias=H.bias,me.shadowNormalBias=H.normalBias,me.shadowRadius=H.radius,me.shadowMapSize=H.mapSize,n.directionalShadow[x]=me,n.directionalShadowMap[x]=Se,n.directionalShadowMatrix[x]=z.shadow.matrix,U++}n.directional[x]=re,x++}else if(z.isSpotLight){let re=e.get(z);re.position.setFromMatrixPosition(z.matrixWorld),re.color.copy(ie).multiplyScalar(G),re.distance=ne,re.coneCos=Math.cos(z.angle),re.penumbraCos=Math.cos(z.angle*(1-z.penumbra)),re.decay=z.decay,n.spot[I]=re;let H=z.shadow;if(z.map&&(n.spotLightMap[L]=z.map,L++,H.updateMatrices(z),z.castShadow&&q++),n.spotLightMatrix[I]=H.matrix,z.castShadow){let me=t.get(z);me.shadowIntensity=H.intensity,me.shadowBias=H.bias,me.shadowNormalBias=H.normalBias,me.shadowRadius=H.radius,me.shadowMapSize=H.mapSize,n.spotShadow[I]=me,n.spotShadowMap[I]=Se,b++}I++}else if(z.isRectAreaLight){let re=e.get(z);re.color.copy(ie).multiplyScalar(G),re.halfWidth.set(z.width*.5,0,0),re.halfHeight.set(0,z.height*.5,0),n.rectArea[O]=re,O++}else if(z.isPointLight){let re=e.get(z);if(re.color.copy(z.color).multiplyScalar(z.intensity),re.distance=z.distance,re.decay=z.decay,z.castShadow){let H=z.shadow,me=t.get(z);me.shadowIntensity=H.intensity,me.shadowBias=H.bias,me.shadowNormalBias=H.normalBias,me.shadowRadius=H.radius,me.shadowMapSize=H.mapSize,me.shadowCameraNear=H.camera.near,me.shadowCameraFar=H.camera.far,n.pointShadow[y]=me,n.pointShadowMap[y]=Se,n.pointShadowMatrix[y]=z.shadow.matrix,N++}n.point[y]=re,y++}else if(z.isHemisphereLight){let re=e.get(z);re.skyColor.copy(z.color).multiplyScalar(G),re.groundColor.copy(z.groundColor).multiplyScalar(G),n.hemi[P]=re,P++}}O>0&&(i.has("OES_texture_float_linear")===!0?(n.rectAreaLTC1=Be.LTC_FLOAT_1,n.rectAreaLTC2=Be.LTC_FLOAT_2):(n.rectAreaLTC1=Be.LTC_HALF_1,n.rectAreaLTC2=Be.LTC_HALF_2)),n.ambient[0]=m,n.ambient[1]=v,n.ambient[2]=g;let Y=n.hash;(Y.sunLength!==S||Y.directionalLength!==x||Y.pointLength!==y||Y.spotLength!==I||Y.rectAreaLength!==O||Y.hemiLength!==P||Y.numSunShadows!==w||Y.numDirectionalShadows!==U||Y.numPointShadows!==N||Y.numSpotShadows!==b||Y.numSpotMaps!==L||Y.numLightProbes!==k)&&(n.sun.length=S,n.directional.length=x,n.spot.length=I,n.rectArea.length=O,n.point.length=y,n.hemi.length=P,n.sunShadow.length=w,n.sunShadowMap.length=w,n.sunShadowMatrix.length=R,n.sunShadowCascade.length=R,n.directionalShadow.length=U,n.directionalShadowMap.length=U,n.directionalShadowMatrix.length=U,n.pointShadow.length=N,n.pointShadowMap.length=N,n.pointShadowMatrix.length=N,n.spotShadow.length=b,n.spotShadowMap.length=b,n.spotLightMatrix.length=b+L-q,n.spotLightMap.length=L,n.numSpotLightShadowsWithMaps=q,n.numLightProbes=k,Y.sunLength=S,Y.directionalLength=x,Y.pointLength=y,Y.spotLength=I,Y.rectAreaLength=O,Y.hemiLength=P,Y.numSunShadows=w,Y.numDirectionalShadows=U,Y.numPointShadows=N,Y.numSpotShadows=b,Y.numSpotMaps=L,Y.numLightProbes=k,n.version=lM++)}function f(d,m){let v=0,g=0,S=0,w=0,R=0,x=0,y=m.matrixWorldInverse;for(let I=0,O=d.length;I<O;I++){let P=d[I];if(P.isSunLight){let U=n.sun[v];U.direction.setFromMatrixPosition(P.matrixWorld),U.direction.transformDirection(y),v++}else if(P.isDirectionalLight){let U=n.directional[g];U.direction.setFromMatrixPosition(P.matrixWorld),s.setFromMatrixPosition(P.target.matrixWorld),U.direction.sub(s),U.direction.transformDirection(y),g++}else if(P.isSpotLight){let U=n.spot[w];U.position.setFromMatrixPosition(P.matrixWorld),U.position.applyMatrix4(y),U.direction.setFromMatrixPosition(P.matrixWorld),s.setFromMatrixPosition(P.target.matrixWorld),U.direction.sub(s),U.direction.transformDirection(y),w++}else if(P.isRectAreaLight){let U=n.rectArea[R];U.position.setFromMatrixPosition(P.matrixWorld),U.position.applyMatrix4(y),c.identity(),o.copy(P.matrixWorld),o.premultiply(y),c.extractRotation(o),U.halfWidth.set(P.width*.5,0,0),U.halfHeight.set(0,P.height*.5,0),U.halfWidth.applyMatrix4(c),U.halfHeight.applyMatrix4(c),R++}else if(P.isPointLight){let U=n.point[S];U.position.setFromMatrixPosition(P.matrixWorld),U.position.applyMatrix4(y),S++}else if(P.isHemisphereLight){let U=n.hemi[x];U.direction.setFromMatrixPosition(P.matrixWorld),U.direction.transformDirection(y),x++}}}return{setup:h,setupView:f,state:n}}function _d(i){let e=new hM(i),t=[],n=[],s=[];function o(v){m.camera=v,t.length=0,n.length=0,s.length=0}function c(v){v.isLightProbeGrid?s.push(v):t.push(v)}function h(v){n.push(v)}function f(){e.setup(t),s.sort((v,g)=>v.priority-g.priority||v.id-g.id)}function d(v){e.setupView(t,v)}let m={lightsArray:t,shadowsArray:n,lightProbeGridArray:s,camera:null,lights:e,transmissionRenderTarget:{},textureUnits:0};return{init:o,state:m,setupLights:f,setupLightsView:d,pushLight:c,pushShadow:h}}function uM(i){let e=new WeakMap;function t(s,o=0){let c=e.get(s),h;return c===void 0?(h=new _d(i),e.set(s,[h])):o>=c.length?(h=new _d(i),c.push(h)):h=c[o],h}function n(){e=new WeakMap}return{get:t,dispose:n}}var dM=`void main() {
+	gl_Position = vec4( position, 1.0 );
+}`,fM=`uniform sampler2D shadow_pass;
+uniform vec2 resolution;
+uniform float radius;
+void main() {
+	const float samples = float( VSM_SAMPLES );
+	float mean = 0.0;
+	float squared_mean = 0.0;
+	float uvStride = samples <= 1.0 ? 0.0 : 2.0 / ( samples - 1.0 );
+	float uvStart = samples <= 1.0 ? 0.0 : - 1.0;
+	for ( float i = 0.0; i < samples; i ++ ) {
+		float uvOffset = uvStart + i * uvStride;
+		#ifdef HORIZONTAL_PASS
+			vec2 distribution = texture2D( shadow_pass, ( gl_FragCoord.xy + vec2( uvOffset, 0.0 ) * radius ) / resolution ).rg;
+			mean += distribution.x;
+			squared_mean += distribution.y * distribution.y + distribution.x * distribution.x;
+		#else
+			float depth = texture2D( shadow_pass, ( gl_FragCoord.xy + vec2( 0.0, uvOffset ) * radius ) / resolution ).r;
+			mean += depth;
+			squared_mean += depth * depth;
+		#endif
+	}
+	mean = mean / samples;
+	squared_mean = squared_mean / samples;
+	float std_dev = sqrt( max( 0.0, squared_mean - mean * mean ) );
+	gl_FragColor = vec4( mean, std_dev, 0.0, 1.0 );
+}`,pM=[new Q(1,0,0),new Q(-1,0,0),new Q(0,1,0),new Q(0,-1,0),new Q(0,0,1),new Q(0,0,-1)],mM=[new Q(0,-1,0),new Q(0,-1,0),new Q(0,0,1),new Q(0,0,-1),new Q(0,-1,0),new Q(0,-1,0)],vd=new It,Is=new Q,Dc=new Q;function gM(i,e,t){let n=new Pi,s=new gt,o=new gt,c=new zt,h=new $a,f=new qa,d={},m=t.maxTextureSize,v={[Ni]:vn,[vn]:Ni,[ii]:ii},g=new ni({defines:{VSM_SAMPLES:8},uniforms:{shadow_pass:{value:null},resolution:{value:new gt},radius:{value:4}},vertexShader:dM,fragmentShader:fM}),S=g.clone();S.defines.HORIZONTAL_PASS=1;let w=new xn;w.setAttribute("position",new Qn(new Float32Array([-1,-1,.5,3,-1,.5,-1,3,.5]),3));let R=new Ln(w,g),x=this;this.enabled=!1,this.autoUpdate=!0,this.needsUpdate=!1,this.type=Ki;let y=this.type;this.render=function(N,b,L){if(x.enabled===!1||x.autoUpdate===!1&&x.needsUpdate===!1||N.length===0)return;this.type===uu&&(et("WebGLShadowMap: PCFSoftShadowMap has been removed. Using PCFShadowMap instead."),this.type=Ki);let q=i.getRenderTarget(),k=i.getActiveCubeFace(),Y=i.getActiveMipmapLevel(),J=i.state;J.setBlending(Qi),J.buffers.depth.getReversed()===!0?J.buffers.color.setClear(0,0,0,0):J.buffers.color.setClear(1,1,1,1),J.buffers.depth.setTest(!0),J.setScissorTest(!1);let ee=y!==this.type;ee&&b.traverse(function(z){z.material&&(Array.isArray(z.material)?z.material.forEach(ie=>ie.needsUpdate=!0):z.material.needsUpdate=!0)});for(let z=0,ie=N.length;z<ie;z++){let G=N[z],ne=G.shadow;if(ne===void 0){et("WebGLShadowMap:",G,"has no shadow.");continue}if(ne.autoUpdate===!1&&ne.needsUpdate===!1)continue;s.copy(ne.mapSize);let Se=ne.getFrameExtents();s.multiply(Se),o.copy(ne.mapSize),(s.x>m||s.y>m)&&(s.x>m&&(o.x=Math.floor(m/Se.x),s.x=o.x*Se.x,ne.mapSize.x=o.x),s.y>m&&(o.y=Math.floor(m/Se.y),s.y=o.y*Se.y,ne.mapSize.y=o.y));let re=i.state.buffers.depth.getReversed();if(ne.camera._reversedDepth=re,ne.map===null||ee===!0){if(ne.map!==null&&(ne.map.depthTexture!==null&&(ne.map.depthTexture.dispose(),ne.map.depthTexture=null),ne.map.dispose()),this.type===Nr){if(G.isPointLight){et("WebGLShadowMap: VSM shadow maps are not supported for PointLights. Use PCF or BasicShadowMap instead.");continue}ne.map=new En(s.x,s.y,{format:Ui,type:Vn,minFilter:_n,magFilter:_n,generateMipmaps:!1}),ne.map.texture.name=G.name+".shadowMap",ne.map.depthTexture=new vi(s.x,s.y,Gn),ne.map.depthTexture.name=G.name+".shadowMapDepth",ne.map.depthTexture.format=mi,ne.map.depthTexture.compareFunction=null,ne.map.depthTexture.minFilter=sn,ne.map.depthTexture.magFilter=sn}else G.isPointLight?(ne.map=new Ds(s.x),ne.map.depthTexture=new ds(s.x,zn)):(ne.map=new En(s.x,s.y),ne.map.depthTexture=new vi(s.x,s.y,zn)),ne.map.depthTexture.name=G.name+".shadowMap",ne.map.depthTexture.format=mi,this.type===Ki?(ne.map.depthTexture.compareFunction=re?Sc:xc,ne.map.depthTexture.minFilter=_n,ne.map.depthTexture.magFilter=_n):(ne.map.depthTexture.compareFunction=null,ne.map.depthTexture.minFilter=sn,ne.map.depthTexture.magFilter=sn);ne.camera.updateProjectionMatrix()}ne.map.isWebGLCubeRenderTarget!==!0&&(ne.map.width!==s.x||ne.map.height!==s.y)&&ne.map.setSize(s.x,s.y);let H=ne.map.isWebGLCubeRenderTarget?6:ne.getViewportCount();G.isPointLight!==!0&&ne.updateMatrices(G,L);let me=(ne.camera.layers.mask&4294967294)!==0?ne.camera.layers:L.layers;for(let We=0;We<H;We++){let nt=ne.getCamera(We);if(G.isPointLight){let ue=ne.camera,Fe=ne.matrix,Pe=G.distance||ue.far;Pe!==ue.far&&(ue.far=Pe,ue.updateProjectionMatrix()),Is.setFromMatrixPosition(G.matrixWorld),ue.position.copy(Is),Dc.copy(ue.position),Dc.add(pM[We]),ue.up.copy(mM[We]),ue.lookAt(Dc),ue.updateMatrixWorld(),Fe.makeTranslation(-Is.x,-Is.y,-Is.z),vd.multiplyMatrices(ue.projectionMatrix,ue.matrixWorldInverse),ne._frustum.setFromProjectionMatrix(vd,ue.coordinateSystem,ue.reversedDepth)}if(ne.map.isWebGLCubeRenderTarget)i.setRenderTarget(ne.map,We),i.clear();else{We===0&&(i.setRenderTarget(ne.map),i.clear());let ue=ne.getViewport(We);c.set(o.x*ue.x,o.y*ue.y,o.x*ue.z,o.y*ue.w),J.viewport(c)}n=ne.getFrustum(We),P(b,L,nt,G,me,this.type)}ne.isPointLightShadow!==!0&&this.type===Nr&&I(ne,L),ne.needsUpdate=!1}y=this.type,x.needsUpdate=!1,i.setRenderTarget(q,k,Y)};function I(N,b){let L=e.update(R);g.defines.VSM_SAMPLES!==N.blurSamples&&(g.defines.VSM_SAMPLES=N.blurSamples,S.defines.VSM_SAMPLES=N.blurSamples,g.needsUpdate=!0,S.needsUpdate=!0),N.mapPass===null?N.mapPass=new En(s.x,s.y,{format:Ui,type:Vn}):(N.mapPass.width!==N.map.width||N.mapPass.height!==N.map.height)&&N.mapPass.setSize(N.map.width,N.map.height),g.uniforms.shadow_pass.value=N.map.depthTexture,g.uniforms.resolution.value.set(N.map.width,N.map.height),g.uniforms.radius.value=N.radius,i.setRenderTarget(N.mapPass),i.clear(),i.renderBufferDirect(b,null,L,g,R,null),S.uniforms.shadow_pass.value=N.mapPass.texture,S.uniforms.resolution.value.set(N.map.width,N.map.height),S.uniforms.radius.value=N.radius,i.setRenderTarget(N.map),i.clear(),i.renderBufferDirect(b,null,L,S,R,null)}function O(N,b,L,q){let k=null,Y=L.isPointLight===!0?N.customDistanceMaterial:N.customDepthMaterial;if(Y!==void 0)k=Y;else if(k=L.isPointLight===!0?f:h,i.localClippingEnabled&&b.clipShadows===!0&&Array.isArray(b.clippingPlanes)&&b.clippingPlanes.length!==0||b.displacementMap&&b.displacementScale!==0||b.alphaMap&&b.alphaTest>0||b.map&&b.alphaTest>0||b.alphaToCoverage===!0){let J=k.uuid,ee=b.uuid,z=d[J];z===void 0&&(z={},d[J]=z);let ie=z[ee];ie===void 0&&(ie=k.clone(),z[ee]=ie,b.addEventListener("dispose",U)),k=ie}if(k.visible=b.visible,k.wireframe=b.wireframe,q===Nr?k.side=b.shadowSide!==null?b.shadowSide:b.side:k.side=b.shadowSide!==null?b.shadowSide:v[b.side],k.alphaMap=b.alphaMap,k.alphaTest=b.alphaToCoverage===!0?.5:b.alphaTest,k.map=b.map,k.clipShadows=b.clipShadows,k.clippingPlanes=b.clippingPlanes,k.clipIntersection=b.clipIntersection,k.displacementMap=b.displacementMap,k.displacementScale=b.displacementScale,k.displacementBias=b.displacementBias,k.wireframeLinewidth=b.wireframeLinewidth,k.linewidth=b.linewidth,L.isPointLight===!0&&k.isMeshDistanceMaterial===!0){let J=i.properties.get(k);J.light=L}return k}function P(N,b,L,q,k,Y){if(N.visible===!1)return;if(N.layers.test(k)&&(N.isMesh||N.isLine||N.isPoints)&&(N.castShadow||N.receiveShadow&&Y===Nr)&&(!N.frustumCulled||N.intersectsFrustum(n))){N.modelViewMatrix.multiplyMatrices(L.matrixWorldInverse,N.matrixWorld);let z=e.update(N),ie=N.material;if(Array.isArray(ie)){let G=z.groups;for(let ne=0,Se=G.length;ne<Se;ne++){let re=G[ne],H=ie[re.materialIndex];if(H&&H.visible){let me=O(N,H,q,Y);N.onBeforeShadow(i,N,b,L,z,me,re),i.renderBufferDirect(L,null,z,me,N,re),N.onAfterShadow(i,N,b,L,z,me,re)}}}else if(ie.visible){let G=O(N,ie,q,Y);N.onBeforeShadow(i,N,b,L,z,G,null),i.renderBufferDirect(L,null,z,G,N,null),N.onAfterShadow(i,N,b,L,z,G,null)}}let ee=N.children;for(let z=0,ie=ee.length;z<ie;z++)P(ee[z],b,L,q,k,Y)}function U(N){N.target.removeEventListener("dispose",U);for(let L in d){let q=d[L],k=N.target.uuid;k in q&&(q[k].dispose(),delete q[k])}}}function _M(i,e){function t(){let B=!1,he=new zt,se=null,Re=new zt(0,0,0,0);return{setMask:function(Ee){se!==Ee&&!B&&(i.colorMask(Ee,Ee,Ee,Ee),se=Ee)},setLocked:function(Ee){B=Ee},setClear:function(Ee,Ae,Xe,ot,we){we===!0&&(Ee*=ot,Ae*=ot,Xe*=ot),he.set(Ee,Ae,Xe,ot),Re.equals(he)===!1&&(i.clearColor(Ee,Ae,Xe,ot),Re.copy(he))},reset:function(){B=!1,se=null,Re.set(-1,0,0,0)}}}function n(){let B=!1,he=!1,se=null,Re=null,Ee=null;return{setReversed:function(Ae){if(he!==Ae){let Xe=e.get("EXT_clip_control");Ae?Xe.clipControlEXT(Xe.LOWER_LEFT_EXT,Xe.ZERO_TO_ONE_EXT):Xe.clipControlEXT(Xe.LOWER_LEFT_EXT,Xe.NEGATIVE_ONE_TO_ONE_EXT),he=Ae;let ot=Ee;Ee=null,this.setClear(ot)}},getReversed:function(){return he},setTest:function(Ae){Ae?Ue(i.DEPTH_TEST):rt(i.DEPTH_TEST)},setMask:function(Ae){se!==Ae&&!B&&(i.depthMask(Ae),se=Ae)},setFunc:function(Ae){if(he&&(Ae=Xu[Ae]),Re!==Ae){switch(Ae){case Aa:i.depthFunc(i.NEVER);break;case Ca:i.depthFunc(i.ALWAYS);break;case Ra:i.depthFunc(i.LESS);break;case br:i.depthFunc(i.LEQUAL);break;case Pa:i.depthFunc(i.EQUAL);break;case Ia:i.depthFunc(i.GEQUAL);break;case La:i.depthFunc(i.GREATER);break;case Da:i.depthFunc(i.NOTEQUAL);break;default:i.depthFunc(i.LEQUAL)}Re=Ae}},setLocked:function(Ae){B=Ae},setClear:function(Ae){Ee!==Ae&&(Ee=Ae,he&&(Ae=1-Ae),i.clearDepth(Ae))},reset:function(){B=!1,se=null,Re=null,Ee=null,he=!1}}}function s(){let B=!1,he=null,se=null,Re=null,Ee=null,Ae=null,Xe=null,ot=null,we=null;return{setTest:function(qe){B||(qe?Ue(i.STENCIL_TEST):rt(i.STENCIL_TEST))},setMask:function(qe){he!==qe&&!B&&(i.stencilMask(qe),he=qe)},setFunc:function(qe,lt,Oe){(se!==qe||Re!==lt||Ee!==Oe)&&(i.stencilFunc(qe,lt,Oe),se=qe,Re=lt,Ee=Oe)},setOp:function(qe,lt,Oe){(Ae!==qe||Xe!==lt||ot!==Oe)&&(i.stencilOp(qe,lt,Oe),Ae=qe,Xe=lt,ot=Oe)},setLocked:function(qe){B=qe},setClear:function(qe){we!==qe&&(i.clearStencil(qe),we=qe)},reset:function(){B=!1,he=null,se=null,Re=null,Ee=null,Ae=null,Xe=null,ot=null,we=null}}}let o=new t,c=new n,h=new s,f={},d=new WeakMap,m={},v={},g={},S=new WeakMap,w=[],R=null,x=!1,y=null,I=null,O=null,P=null,U=null,N=null,b=null,L=new ut(0,0,0),q=0,k=!1,Y=null,J=null,ee=null,z=null,ie=null,G=i.getParameter(i.MAX_COMBINED_TEXTURE_IMAGE_UNITS),ne=!1,Se=0,re=i.getParameter(i.VERSION);re.indexOf("WebGL")!==-1?(Se=parseFloat(/^WebGL (\d)/.exec(re)[1]),ne=Se>=1):re.indexOf("OpenGL ES")!==-1&&(Se=parseFloat(/^OpenGL ES (\d)/.exec(re)[1]),ne=Se>=2);let H=null,me={},We=i.getParameter(i.SCISSOR_BOX),nt=i.getParameter(i.VIEWPORT),ue=new zt().fromArray(We),Fe=new zt().fromArray(nt);function Pe(B,he,se,Re){let Ee=new Uint8Array(4),Ae=i.createTexture();i.bindTexture(B,Ae),i.texParameteri(B,i.TEXTURE_MIN_FILTER,i.NEAREST),i.texParameteri(B,i.TEXTURE_MAG_FILTER,i.NEAREST);for(let Xe=0;Xe<se;Xe++)B===i.TEXTURE_3D||B===i.TEXTURE_2D_ARRAY?i.texImage3D(he,0,i.RGBA,1,1,Re,0,i.RGBA,i.UNSIGNED_BYTE,Ee):i.texImage2D(he+Xe,0,i.RGBA,1,1,0,i.RGBA,i.UNSIGNED_BYTE,Ee);return Ae}let Ye={};Ye[i.TEXTURE_2D]=Pe(i.TEXTURE_2D,i.TEXTURE_2D,1),Ye[i.TEXTURE_CUBE_MAP]=Pe(i.TEXTURE_CUBE_MAP,i.TEXTURE_CUBE_MAP_POSITIVE_X,6),Ye[i.TEXTURE_2D_ARRAY]=Pe(i.TEXTURE_2D_ARRAY,i.TEXTURE_2D_ARRAY,1,1),Ye[i.TEXTURE_3D]=Pe(i.TEXTURE_3D,i.TEXTURE_3D,1,1),o.setClear(0,0,0,1),c.setClear(1),h.setClear(0),Ue(i.DEPTH_TEST),c.setFunc(br),Rt(!1),St(Kl),Ue(i.CULL_FACE),Vt(Qi);function Ue(B){m[B]!==!0&&(i.enable(B),m[B]=!0)}function rt(B){m[B]!==!1&&(i.disable(B),m[B]=!1)}function Gt(B,he){return g[B]!==he?(i.bindFramebuffer(B,he),g[B]=he,B===i.DRAW_FRAMEBUFFER&&(g[i.FRAMEBUFFER]=he),B===i.FRAMEBUFFER&&(g[i.DRAW_FRAMEBUFFER]=he),!0):!1}function Qe(B,he){let se=w,Re=!1;if(B){se=S.get(he),se===void 0&&(se=[],S.set(he,se));let Ee=B.textures;if(se.length!==Ee.length||se[0]!==i.COLOR_ATTACHMENT0){for(let Ae=0,Xe=Ee.length;Ae<Xe;Ae++)se[Ae]=i.COLOR_ATTACHMENT0+Ae;se.length=Ee.length,Re=!0}}else se[0]!==i.BACK&&(se[0]=i.BACK,Re=!0);Re&&i.drawBuffers(se)}function wt(B){return R!==B?(i.useProgram(B),R=B,!0):!1}let Tt={[er]:i.FUNC_ADD,[fu]:i.FUNC_SUBTRACT,[pu]:i.FUNC_REVERSE_SUBTRACT};Tt[mu]=i.MIN,Tt[gu]=i.MAX;let dt={[_u]:i.ZERO,[vu]:i.ONE,[yu]:i.SRC_COLOR,[nc]:i.SRC_ALPHA,[Eu]:i.SRC_ALPHA_SATURATE,[bu]:i.DST_COLOR,[Su]:i.DST_ALPHA,[xu]:i.ONE_MINUS_SRC_COLOR,[ic]:i.ONE_MINUS_SRC_ALPHA,[wu]:i.ONE_MINUS_DST_COLOR,[Mu]:i.ONE_MINUS_DST_ALPHA,[Tu]:i.CONSTANT_COLOR,[Au]:i.ONE_MINUS_CONSTANT_COLOR,[Cu]:i.CONSTANT_ALPHA,[Ru]:i.ONE_MINUS_CONSTANT_ALPHA};function Vt(B,he,se,Re,Ee,Ae,Xe,ot,we,qe){if(B===Qi){x===!0&&(rt(i.BLEND),x=!1);return}if(x===!1&&(Ue(i.BLEND),x=!0),B!==du){if(B!==y||qe!==k){if((I!==er||U!==er)&&(i.blendEquation(i.FUNC_ADD),I=er,U=er),qe)switch(B){case Ur:i.blendFuncSeparate(i.ONE,i.ONE_MINUS_SRC_ALPHA,i.ONE,i.ONE_MINUS_SRC_ALPHA);break;case Ql:i.blendFunc(i.ONE,i.ONE);break;case ec:i.blendFuncSeparate(i.ZERO,i.ONE_MINUS_SRC_COLOR,i.ZERO,i.ONE);break;case tc:i.blendFuncSeparate(i.DST_COLOR,i.ONE_MINUS_SRC_ALPHA,i.ZERO,i.ONE);break;default:tt("WebGLState: Invalid blending: ",B);break}else switch(B){case Ur:i.blendFuncSeparate(i.SRC_ALPHA,i.ONE_MINUS_SRC_ALPHA,i.ONE,i.ONE_MINUS_SRC_ALPHA);break;case Ql:i.blendFuncSeparate(i.SRC_ALPHA,i.ONE,i.ONE,i.ONE);break;case ec:tt("WebGLState: SubtractiveBlending requires material.premultipliedAlpha = true");break;case tc:tt("WebGLState: MultiplyBlending requires material.premultipliedAlpha = true");break;default:tt("WebGLState: Invalid blending: ",B);break}O=null,P=null,N=null,b=null,L.set(0,0,0),q=0,y=B,k=qe}return}Ee=Ee||he,Ae=Ae||se,Xe=Xe||Re,(he!==I||Ee!==U)&&(i.blendEquationSeparate(Tt[he],Tt[Ee]),I=he,U=Ee),(se!==O||Re!==P||Ae!==N||Xe!==b)&&(i.blendFuncSeparate(dt[se],dt[Re],dt[Ae],dt[Xe]),O=se,P=Re,N=Ae,b=Xe),(ot.equals(L)===!1||we!==q)&&(i.blendColor(ot.r,ot.g,ot.b,we),L.copy(ot),q=we),y=B,k=!1}function ht(B,he){B.side===ii?rt(i.CULL_FACE):Ue(i.CULL_FACE);let se=B.side===vn;he&&(se=!se),Rt(se),B.blending===Ur&&B.transparent===!1?Vt(Qi):Vt(B.blending,B.blendEquation,B.blendSrc,B.blendDst,B.blendEquationAlpha,B.blendSrcAlpha,B.blendDstAlpha,B.blendColor,B.blendAlpha,B.premultipliedAlpha),c.setFunc(B.depthFunc),c.setTest(B.depthTest),c.setMask(B.depthWrite),o.setMask(B.colorWrite);let Re=B.stencilWrite;h.setTest(Re),Re&&(h.setMask(B.stencilWriteMask),h.setFunc(B.stencilFunc,B.stencilRef,B.stencilFuncMask),h.setOp(B.stencilFail,B.stencilZFail,B.stencilZPass)),Le(B.polygonOffset,B.polygonOffsetFactor,B.polygonOffsetUnits),B.alphaToCoverage===!0?Ue(i.SAMPLE_ALPHA_TO_COVERAGE):rt(i.SAMPLE_ALPHA_TO_COVERAGE)}function Rt(B){Y!==B&&(B?i.frontFace(i.CW):i.frontFace(i.CCW),Y=B)}function St(B){B!==cu?(Ue(i.CULL_FACE),B!==J&&(B===Kl?i.cullFace(i.BACK):B===hu?i.cullFace(i.FRONT):i.cullFace(i.FRONT_AND_BACK))):rt(i.CULL_FACE),J=B}function Qt(B){B!==ee&&(ne&&i.lineWidth(B),ee=B)}function Le(B,he,se){B?(Ue(i.POLYGON_OFFSET_FILL),(z!==he||ie!==se)&&(z=he,ie=se,c.getReversed()&&(he=-he,se=-se),i.polygonOffset(he,se))):rt(i.POLYGON_OFFSET_FILL)}function $e(B){B?Ue(i.SCISSOR_TEST):rt(i.SCISSOR_TEST)}function an(B){B===void 0&&(B=i.TEXTURE0+G-1),H!==B&&(i.activeTexture(B),H=B)}function en(B,he,se){se===void 0&&(H===null?se=i.TEXTURE0+G-1:se=H);let Re=me[se];Re===void 0&&(Re={type:void 0,texture:void 0},me[se]=Re),(Re.type!==B||Re.texture!==he)&&(H!==se&&(i.activeTexture(se),H=se),i.bindTexture(B,he||Ye[B]),Re.type=B,Re.texture=he)}function W(){let B=me[H];B!==void 0&&B.type!==void 0&&(i.bindTexture(B.type,null),B.type=void 0,B.texture=void 0)}function fn(){try{i.compressedTexImage2D(...arguments)}catch(B){tt("WebGLState:",B)}}function At(){try{i.compressedTexImage3D(...arguments)}catch(B){tt("WebGLState:",B)}}function Nt(){try{i.texSubImage2D(...arguments)}catch(B){tt("WebGLState:",B)}}function De(){try{i.texSubImage3D(...arguments)}catch(B){tt("WebGLState:",B)}}function Xt(){try{i.compressedTexSubImage2D(...arguments)}catch(B){tt("WebGLState:",B)}}function je(){try{i.compressedTexSubImage3D(...arguments)}catch(B){tt("WebGLState:",B)}}function Je(){try{i.texStorage2D(...arguments)}catch(B){tt("WebGLState:",B)}}function D(){try{i.texStorage3D(...arguments)}catch(B){tt("WebGLState:",B)}}function T(){try{i.texImage2D(...arguments)}catch(B){tt("WebGLState:",B)}}function j(){try{i.texImage3D(...arguments)}catch(B){tt("WebGLState:",B)}}function ve(B){return v[B]!==void 0?v[B]:i.getParameter(B)}function de(B,he){v[B]!==he&&(i.pixelStorei(B,he),v[B]=he)}function pe(B){ue.equals(B)===!1&&(i.scissor(B.x,B.y,B.z,B.w),ue.copy(B))}function Me(B){Fe.equals(B)===!1&&(i.viewport(B.x,B.y,B.z,B.w),Fe.copy(B))}function ae(B,he){let se=d.get(he);se===void 0&&(se=new WeakMap,d.set(he,se));let Re=se.get(B);Re===void 0&&(Re=i.getUniformBlockIndex(he,B.name),i.uniformBlockBinding(he,Re,Re),se.set(B,Re))}function le(B,he,se){let Ee=d.get(he).get(B);f[Ee]!==se&&(i.bindBufferBase(i.UNIFORM_BUFFER,Ee,se),f[Ee]=se)}function Ce(){i.disable(i.BLEND),i.disable(i.CULL_FACE),i.disable(i.DEPTH_TEST),i.disable(i.POLYGON_OFFSET_FILL),i.disable(i.SCISSOR_TEST),i.disable(i.STENCIL_TEST),i.disable(i.SAMPLE_ALPHA_TO_COVERAGE),i.blendEquation(i.FUNC_ADD),i.blendFunc(i.ONE,i.ZERO),i.blendFuncSeparate(i.ONE,i.ZERO,i.ONE,i.ZERO),i.blendColor(0,0,0,0),i.colorMask(!0,!0,!0,!0),i.clearColor(0,0,0,0),i.depthMask(!0),i.depthFunc(i.LESS),c.setReversed(!1),i.clearDepth(1),i.stencilMask(4294967295),i.stencilFunc(i.ALWAYS,0,4294967295),i.stencilOp(i.KEEP,i.KEEP,i.KEEP),i.clearStencil(0),i.cullFace(i.BACK),i.frontFace(i.CCW),i.polygonOffset(0,0),i.activeTexture(i.TEXTURE0),i.bindFramebuffer(i.FRAMEBUFFER,null),i.bindFramebuffer(i.DRAW_FRAMEBUFFER,null),i.bindFramebuffer(i.READ_FRAMEBUFFER,null),i.useProgram(null),i.lineWidth(1),i.scissor(0,0,i.canvas.width,i.canvas.height),i.viewport(0,0,i.canvas.width,i.canvas.height),i.pixelStorei(i.PACK_ALIGNMENT,4),i.pixelStorei(i.UNPACK_ALIGNMENT,4),i.pixelStorei(i.UNPACK_FLIP_Y_WEBGL,!1),i.pixelStorei(i.UNPACK_PREMULTIPLY_ALPHA_WEBGL,!1),i.pixelStorei(i.UNPACK_COLORSPACE_CONVERSION_WEBGL,i.BROWSER_DEFAULT_WEBGL),i.pixelStorei(i.PACK_ROW_LENGTH,0),i.pixelStorei(i.PACK_SKIP_PIXELS,0),i.pixelStorei(i.PACK_SKIP_ROWS,0),i.pixelStorei(i.UNPACK_ROW_LENGTH,0),i.pixelStorei(i.UNPACK_IMAGE_HEIGHT,0),i.pixelStorei(i.UNPACK_SKIP_PIXELS,0),i.pixelStorei(i.UNPACK_SKIP_ROWS,0),i.pixelStorei(i.UNPACK_SKIP_IMAGES,0),m={},v={},H=null,me={},g={},f={},S=new WeakMap,w=[],R=null,x=!1,y=null,I=null,O=null,P=null,U=null,N=null,b=null,L=new ut(0,0,0),q=0,k=!1,Y=null,J=null,ee=null,z=null,ie=null,ue.set(0,0,i.canvas.width,i.canvas.height),Fe.set(0,0,i.canvas.width,i.canvas.height),o.reset(),c.reset(),h.reset()}return{buffers:{color:o,depth:c,stencil:h},enable:Ue,disable:rt,bindFramebuffer:Gt,drawBuffers:Qe,useProgram:wt,setBlending:Vt,setMaterial:ht,setFlipSided:Rt,setCullFace:St,setLineWidth:Qt,setPolygonOffset:Le,setScissorTest:$e,activeTexture:an,bindTexture:en,unbindTexture:W,compressedTexImage2D:fn,compressedTexImage3D:At,texImage2D:T,texImage3D:j,pixelStorei:de,getParameter:ve,updateUBOMapping:ae,uniformBlockBinding:le,texStorage2D:Je,texStorage3D:D,texSubImage2D:Nt,texSubImage3D:De,compressedTexSubImage2D:Xt,compressedTexSubImage3D:je,scissor:pe,viewport:Me,reset:Ce}}function vM(i,e,t,n,s,o,c){let h=e.has("WEBGL_multisampled_render_to_texture")?e.get("WEBGL_multisampled_render_to_texture"):null,f=typeof navigator>"u"?!1:/OculusBrowser/g.test(navigator.userAgent),d=new gt,m=new WeakMap,v=new Set,g,S=new WeakMap,w=new Set,R=new FinalizationRegistry(D=>w.delete(D)),x=!1;try{x=typeof OffscreenCanvas<"u"&&new OffscreenCanvas(1,1).getContext("2d")!==null}catch{}function y(D,T){return x?new OffscreenCanvas(D,T):ss("canvas")}function I(D,T,j){let ve=1,de=Je(D);if((de.width>j||de.height>j)&&(ve=j/Math.max(de.width,de.height)),ve<1)if(typeof HTMLImageElement<"u"&&D instanceof HTMLImageElement||typeof HTMLCanvasElement<"u"&&D instanceof HTMLCanvasElement||typeof ImageBitmap<"u"&&D instanceof ImageBitmap||typeof VideoFrame<"u"&&D instanceof VideoFrame){let pe=Math.floor(ve*de.width),Me=Math.floor(ve*de.height);g===void 0&&(g=y(pe,Me));let ae=T?y(pe,Me):g;return ae.width=pe,ae.height=Me,ae.getContext("2d").drawImage(D,0,0,pe,Me),et("WebGLRenderer: Texture has been resized from ("+de.width+"x"+de.height+") to ("+pe+"x"+Me+")."),ae}else return"data"in D&&et("WebGLRenderer: Image in DataTexture is too big ("+de.width+"x"+de.height+")."),D;return D}function O(D){return D.generateMipmaps}function P(D){i.generateMipmap(D)}function U(D){return D.isWebGLCubeRenderTarget?i.TEXTURE_CUBE_MAP:D.isWebGL3DRenderTarget?i.TEXTURE_3D:D.isWebGLArrayRenderTarget||D.isCompressedArrayTexture?i.TEXTURE_2D_ARRAY:i.TEXTURE_2D}function N(D,T,j,ve,de,pe=!1){if(D!==null){if(i[D]!==void 0)return i[D];et("WebGLRenderer: Attempt to use non-existing WebGL internal format '"+D+"'")}let Me;ve&&(Me=e.get("EXT_texture_norm16"),Me||et("WebGLRenderer: Unable to use normalized textures without EXT_texture_norm16 extension"));let ae=T;if(T===i.RED&&(j===i.FLOAT&&(ae=i.R32F),j===i.HALF_FLOAT&&(ae=i.R16F),j===i.UNSIGNED_BYTE&&(ae=i.R8),j===i.UNSIGNED_SHORT&&Me&&(ae=Me.R16_EXT),j===i.SHORT&&Me&&(ae=Me.R16_SNORM_EXT)),T===i.RED_INTEGER&&(j===i.UNSIGNED_BYTE&&(ae=i.R8UI),j===i.UNSIGNED_SHORT&&(ae=i.R16UI),j===i.UNSIGNED_INT&&(ae=i.R32UI),j===i.BYTE&&(ae=i.R8I),j===i.SHORT&&(ae=i.R16I),j===i.INT&&(ae=i.R32I)),T===i.RG&&(j===i.FLOAT&&(ae=i.RG32F),j===i.HALF_FLOAT&&(ae=i.RG16F),j===i.UNSIGNED_BYTE&&(ae=i.RG8),j===i.UNSIGNED_SHORT&&Me&&(ae=Me.RG16_EXT),j===i.SHORT&&Me&&(ae=Me.RG16_SNORM_EXT)),T===i.RG_INTEGER&&(j===i.UNSIGNED_BYTE&&(ae=i.RG8UI),j===i.UNSIGNED_SHORT&&(ae=i.RG16UI),j===i.UNSIGNED_INT&&(ae=i.RG32UI),j===i.BYTE&&(ae=i.RG8I),j===i.SHORT&&(ae=i.RG16I),j===i.INT&&(ae=i.RG32I)),T===i.RGB_INTEGER&&(j===i.UNSIGNED_BYTE&&(ae=i.RGB8UI),j===i.UNSIGNED_SHORT&&(ae=i.RGB16UI),j===i.UNSIGNED_INT&&(ae=i.RGB32UI),j===i.BYTE&&(ae=i.RGB8I),j===i.SHORT&&(ae=i.RGB16I),j===i.INT&&(ae=i.RGB32I)),T===i.RGBA_INTEGER&&(j===i.UNSIGNED_BYTE&&(ae=i.RGBA8UI),j===i.UNSIGNED_SHORT&&(ae=i.RGBA16UI),j===i.UNSIGNED_INT&&(ae=i.RGBA32UI),j===i.BYTE&&(ae=i.RGBA8I),j===i.SHORT&&(ae=i.RGBA16I),j===i.INT&&(ae=i.RGBA32I)),T===i.RGB&&(j===i.UNSIGNED_SHORT&&Me&&(ae=Me.RGB16_EXT),j===i.SHORT&&Me&&(ae=Me.RGB16_SNORM_EXT),j===i.UNSIGNED_INT_5_9_9_9_REV&&(ae=i.RGB9_E5),j===i.UNSIGNED_INT_10F_11F_11F_REV&&(ae=i.R11F_G11F_B10F)),T===i.RGBA){let le=pe?rs:yt.getTransfer(de);j===i.FLOAT&&(ae=i.RGBA32F),j===i.HALF_FLOAT&&(ae=i.RGBA16F),j===i.UNSIGNED_BYTE&&(ae=le===Ct?i.SRGB8_ALPHA8:i.RGBA8),j===i.UNSIGNED_SHORT&&Me&&(ae=Me.RGBA16_EXT),j===i.SHORT&&Me&&(ae=Me.RGBA16_SNORM_EXT),j===i.UNSIGNED_SHORT_4_4_4_4&&(ae=i.RGBA4),j===i.UNSIGNED_SHORT_5_5_5_1&&(ae=i.RGB5_A1)}return(ae===i.R16F||ae===i.R32F||ae===i.RG16F||ae===i.RG32F||ae===i.RGBA16F||ae===i.RGBA32F)&&e.get("EXT_color_buffer_float"),ae}function b(D,T){let j;return D?T===null||T===zn||T===nr?j=i.DEPTH24_STENCIL8:T===Gn?j=i.DEPTH32F_STENCIL8:T===Br&&(j=i.DEPTH24_STENCIL8,et("DepthTexture: 16 bit depth attachment is not supported with stencil. Using 24-bit attachment.")):T===null||T===zn||T===nr?j=i.DEPTH_COMPONENT24:T===Gn?j=i.DEPTH_COMPONENT32F:T===Br&&(j=i.DEPTH_COMPONENT16),j}function L(D,T){return O(D)===!0||D.isFramebufferTexture&&D.minFilter!==sn&&D.minFilter!==_n?Math.log2(Math.max(T.width,T.height))+1:D.mipmaps.length>0?D.mipmaps.length:D.isCompressedTexture&&Array.isArray(D.image)?T.mipmaps.length:1}function q(D){let T=new WeakRef(D);n.get(D).__ref=T,w.add(T),R.register(D,T,T)}function k(D){let T=n.get(D).__ref;T!==void 0&&(w.delete(T),R.unregister(T))}function Y(D){ee(D.target)}function J(D){z(D.target)}function ee(D){D.removeEventListener("dispose",Y),k(D),G(D),D.isVideoTexture&&m.delete(D),D.isHTMLTexture&&v.delete(D)}function z(D){D.removeEventListener("dispose",J),k(D),Se(D)}function ie(){for(let D of w){let T=D.deref();T!==void 0&&(T.isRenderTarget===!0?z(T):ee(T))}w.clear(),v.clear()}function G(D){let T=n.get(D);if(T.__webglInit===void 0)return;let j=D.source,ve=S.get(j);if(ve){let de=ve[T.__cacheKey];de.usedTimes--,de.usedTimes===0&&ne(D),Object.keys(ve).length===0&&S.delete(j)}n.remove(D)}function ne(D){let T=n.get(D);i.deleteTexture(T.__webglTexture);let j=D.source,ve=S.get(j);delete ve[T.__cacheKey],c.memory.textures--}function Se(D){let T=n.get(D);T.__depthDisposeCallback&&T.__depthDisposeCallback();let j=D.depthTexture;if(j&&j.renderTarget===D&&ee(j),D.isWebGLCubeRenderTarget)for(let de=0;de<6;de++){if(Array.isArray(T.__webglFramebuffer[de]))for(let pe=0;pe<T.__webglFramebuffer[de].length;pe++)i.deleteFramebuffer(T.__webglFramebuffer[de][pe]);else i.deleteFramebuffer(T.__webglFramebuffer[de]);T.__webglDepthbuffer&&i.deleteRenderbuffer(T.__webglDepthbuffer[de])}else{if(Array.isArray(T.__webglFramebuffer))for(let de=0;de<T.__webglFramebuffer.length;de++)i.deleteFramebuffer(T.__webglFramebuffer[de]);else i.deleteFramebuffer(T.__webglFramebuffer);if(T.__webglDepthbuffer&&i.deleteRenderbuffer(T.__webglDepthbuffer),T.__webglMultisampledFramebuffer&&i.deleteFramebuffer(T.__webglMultisampledFramebuffer),T.__webglColorRenderbuffer)for(let de=0;de<T.__webglColorRenderbuffer.length;de++)T.__webglColorRenderbuffer[de]&&i.deleteRenderbuffer(T.__webglColorRenderbuffer[de]);T.__webglDepthRenderbuffer&&i.deleteRenderbuffer(T.__webglDepthRenderbuffer)}let ve=D.textures;for(let de=0,pe=ve.length;de<pe;de++){let Me=n.get(ve[de]);Me.__webglTexture&&(i.deleteTexture(Me.__webglTexture),c.memory.textures--),n.remove(ve[de])}n.remove(D)}let re=0;function H(){re=0}function me(){return re}function We(D){re=D}function nt(){let D=re;return D>=s.maxTextures&&et("WebGLTextures: Trying to use "+(D+1)+" texture units while this GPU supports only "+s.maxTextures),re+=1,D}function ue(D){let T=[];return T.push(D.wrapS),T.push(D.wrapT),T.push(D.wrapR||0),T.push(D.magFilter),T.push(D.minFilter),T.push(D.anisotropy),T.push(D.internalFormat),T.push(D.format),T.push(D.type),T.push(D.generateMipmaps),T.push(D.mipmapsAutoUpdate),T.push(D.premultiplyAlpha),T.push(D.flipY),T.push(D.unpackAlignment),T.push(D.colorSpace),T.join()}function Fe(D,T){let j=n.get(D);if(D.isVideoTexture&&Xt(D),D.isRenderTargetTexture===!1&&D.isExternalTexture!==!0&&D.version>0&&j.__version!==D.version){let ve=D.image;if(ve===null)et("WebGLRenderer: Texture marked for update but no image data found.");else if(ve.complete===!1)et("WebGLRenderer: Texture marked for update but image is incomplete");else{ht(j,D,T);return}}else D.isExternalTexture&&(j.__webglTexture=D.sourceTexture?D.sourceTexture:null);t.bindTexture(i.TEXTURE_2D,j.__webglTexture,i.TEXTURE0+T)}function Pe(D,T){let j=n.get(D);if(D.isRenderTargetTexture===!1&&D.version>0&&j.__version!==D.version){ht(j,D,T);return}else D.isExternalTexture&&(j.__webglTexture=D.sourceTexture?D.sourceTexture:null);t.bindTexture(i.TEXTURE_2D_ARRAY,j.__webglTexture,i.TEXTURE0+T)}function Ye(D,T){let j=n.get(D);if(D.isRenderTargetTexture===!1&&D.version>0&&j.__version!==D.version){ht(j,D,T);return}t.bindTexture(i.TEXTURE_3D,j.__webglTexture,i.TEXTURE0+T)}function Ue(D,T){let j=n.get(D);if(D.version>0&&j.__version!==D.version){Rt(j,D,T);return}t.bindTexture(i.TEXTURE_CUBE_MAP,j.__webglTexture,i.TEXTURE0+T)}let rt={[Fa]:i.REPEAT,[Kn]:i.CLAMP_TO_EDGE,[Na]:i.MIRRORED_REPEAT},Gt={[sn]:i.NEAREST,[Lu]:i.NEAREST_MIPMAP_NEAREST,[ws]:i.NEAREST_MIPMAP_LINEAR,[_n]:i.LINEAR,[lo]:i.LINEAR_MIPMAP_NEAREST,[yi]:i.LINEAR_MIPMAP_LINEAR},Qe={[Uu]:i.NEVER,[Mc]:i.ALWAYS,[Ou]:i.LESS,[xc]:i.LEQUAL,[Bu]:i.EQUAL,[Sc]:i.GEQUAL,[ku]:i.GREATER,[zu]:i.NOTEQUAL};function wt(D,T){if(T.type===Gn&&e.has("OES_texture_float_linear")===!1&&(T.magFilter===_n||T.magFilter===lo||T.magFilter===ws||T.magFilter===yi||T.minFilter===_n||T.minFilter===lo||T.minFilter===ws||T.minFilter===yi)&&et("WebGLRenderer: Unable to use linear filtering with floating point textures. OES_texture_float_linear not supported on this device."),i.texParameteri(D,i.TEXTURE_WRAP_S,rt[T.wrapS]),i.texParameteri(D,i.TEXTURE_WRAP_T,rt[T.wrapT]),(D===i.TEXTURE_3D||D===i.TEXTURE_2D_ARRAY)&&i.texParameteri(D,i.TEXTURE_WRAP_R,rt[T.wrapR]),i.texParameteri(D,i.TEXTURE_MAG_FILTER,Gt[T.magFilter]),i.texParameteri(D,i.TEXTURE_MIN_FILTER,Gt[T.minFilter]),T.compareFunction&&(i.texParameteri(D,i.TEXTURE_COMPARE_MODE,i.COMPARE_REF_TO_TEXTURE),i.texParameteri(D,i.TEXTURE_COMPARE_FUNC,Qe[T.compareFunction])),e.has("EXT_texture_filter_anisotropic")===!0){if(T.magFilter===sn||T.minFilter!==ws&&T.minFilter!==yi||T.type===Gn&&e.has("OES_texture_float_linear")===!1)return;if(T.anisotropy>1||n.get(T).__currentAnisotropy){let j=e.get("EXT_texture_filter_anisotropic");i.texParameterf(D,j.TEXTURE_MAX_ANISOTROPY_EXT,Math.min(T.anisotropy,s.getMaxAnisotropy())),n.get(T).__currentAnisotropy=T.anisotropy}}}function Tt(D,T){let j=!1;D.__webglInit===void 0&&(D.__webglInit=!0,T.addEventListener("dispose",Y),q(T));let ve=T.source,de=S.get(ve);de===void 0&&(de={},S.set(ve,de));let pe=ue(T);if(pe!==D.__cacheKey){de[pe]===void 0&&(de[pe]={texture:i.createTexture(),usedTimes:0},c.memory.textures++,j=!0),de[pe].usedTimes++;let Me=de[D.__cacheKey];Me!==void 0&&(de[D.__cacheKey].usedTimes--,Me.usedTimes===0&&ne(T)),D.__cacheKey=pe,D.__webglTexture=de[pe].texture}return j}function dt(D,T,j){return Math.floor(Math.floor(D/j)/T)}function Vt(D,T,j,ve){let pe=D.updateRanges;if(pe.length===0)t.texSubImage2D(i.TEXTURE_2D,0,0,0,T.width,T.height,j,ve,T.data);else{pe.sort((B,he)=>B.start-he.start);let Me=0;for(let B=1;B<pe.length;B++){let he=pe[Me],se=pe[B],Re=he.start+he.count,Ee=dt(se.start,T.width,4),Ae=dt(he.start,T.width,4);se.start<=Re+1&&Ee===Ae&&dt(se.start+se.count-1,T.width,4)===Ee?he.count=Math.max(he.count,se.start+se.count-he.start):(++Me,pe[Me]=se)}pe.length=Me+1;let ae=t.getParameter(i.UNPACK_ROW_LENGTH),le=t.getParameter(i.UNPACK_SKIP_PIXELS),Ce=t.getParameter(i.UNPACK_SKIP_ROWS);t.pixelStorei(i.UNPACK_ROW_LENGTH,T.width);for(let B=0,he=pe.length;B<he;B++){let se=pe[B],Re=Math.floor(se.start/4),Ee=Math.ceil(se.count/4),Ae=Re%T.width,Xe=Math.floor(Re/T.width),ot=Ee,we=1;t.pixelStorei(i.UNPACK_SKIP_PIXELS,Ae),t.pixelStorei(i.UNPACK_SKIP_ROWS,Xe),t.texSubImage2D(i.TEXTURE_2D,0,Ae,Xe,ot,we,j,ve,T.data)}D.clearUpdateRanges(),t.pixelStorei(i.UNPACK_ROW_LENGTH,ae),t.pixelStorei(i.UNPACK_SKIP_PIXELS,le),t.pixelStorei(i.UNPACK_SKIP_ROWS,Ce)}}function ht(D,T,j){let ve=i.TEXTURE_2D;(T.isDataArrayTexture||T.isCompressedArrayTexture)&&(ve=i.TEXTURE_2D_ARRAY),T.isData3DTexture&&(ve=i.TEXTURE_3D);let de=Tt(D,T),pe=T.source;t.bindTexture(ve,D.__webglTexture,i.TEXTURE0+j);let Me=n.get(pe);if(pe.version!==Me.__version||de===!0){if(t.activeTexture(i.TEXTURE0+j),(typeof ImageBitmap<"u"&&T.image instanceof ImageBitmap)===!1){let we=yt.getPrimaries(yt.workingColorSpace),qe=T.colorSpace===Si?null:yt.getPrimaries(T.colorSpace),lt=T.colorSpace===Si||we===qe?i.NONE:i.BROWSER_DEFAULT_WEBGL;t.pixelStorei(i.UNPACK_FLIP_Y_WEBGL,T.flipY),t.pixelStorei(i.UNPACK_PREMULTIPLY_ALPHA_WEBGL,T.premultiplyAlpha),t.pixelStorei(i.UNPACK_COLORSPACE_CONVERSION_WEBGL,lt)}t.pixelStorei(i.UNPACK_ALIGNMENT,T.unpackAlignment);let le=I(T.image,!1,s.maxTextureSize);le=je(T,le);let Ce=o.convert(T.format,T.colorSpace),B=o.convert(T.type),he=N(T.internalFormat,Ce,B,T.normalized,T.colorSpace,T.isVideoTexture);wt(ve,T);let se,Re=T.mipmaps,Ee=T.isVideoTexture!==!0,Ae=Me.__version===void 0||de===!0,Xe=pe.dataReady,ot=L(T,le);if(T.isDepthTexture)he=b(T.format===xi,T.type),Ae&&(Ee?t.texStorage2D(i.TEXTURE_2D,1,he,le.width,le.height):t.texImage2D(i.TEXTURE_2D,0,he,le.width,le.height,0,Ce,B,null));else if(T.isDataTexture)if(Re.length>0){Ee&&Ae&&t.texStorage2D(i.TEXTURE_2D,ot,he,Re[0].width,Re[0].height);for(let we=0,qe=Re.length;we<qe;we++)se=Re[we],Ee?Xe&&t.texSubImage2D(i.TEXTURE_2D,we,0,0,se.width,se.height,Ce,B,se.data):t.texImage2D(i.TEXTURE_2D,we,he,se.width,se.height,0,Ce,B,se.data);T.generateMipmaps=!1}else Ee?(Ae&&t.texStorage2D(i.TEXTURE_2D,ot,he,le.width,le.height),Xe&&Vt(T,le,Ce,B)):t.texImage2D(i.TEXTURE_2D,0,he,le.width,le.height,0,Ce,B,le.data);else if(T.isCompressedTexture)if(T.isCompressedArrayTexture){Ee&&Ae&&t.texStorage3D(i.TEXTURE_2D_ARRAY,ot,he,Re[0].width,Re[0].height,le.depth);for(let we=0,qe=Re.length;we<qe;we++)if(se=Re[we],T.format!==Hn)if(Ce!==null)if(Ee){if(Xe)if(T.layerUpdates.size>0){let lt=Ic(se.width,se.height,T.format,T.type);for(let Oe of T.layerUpdates){let Et=se.data.subarray(Oe*lt/se.data.BYTES_PER_ELEMENT,(Oe+1)*lt/se.data.BYTES_PER_ELEMENT);t.compressedTexSubImage3D(i.TEXTURE_2D_ARRAY,we,0,0,Oe,se.width,se.height,1,Ce,Et)}}else t.compressedTexSubImage3D(i.TEXTURE_2D_ARRAY,we,0,0,0,se.width,se.height,le.depth,Ce,se.data)}else t.compressedTexImage3D(i.TEXTURE_2D_ARRAY,we,he,se.width,se.height,le.depth,0,se.data,0,0);else et("WebGLRenderer: Attempt to load unsupported compressed texture format in .uploadTexture()");else Ee?Xe&&t.texSubImage3D(i.TEXTURE_2D_ARRAY,we,0,0,0,se.width,se.height,le.depth,Ce,B,se.data):t.texImage3D(i.TEXTURE_2D_ARRAY,we,he,se.width,se.height,le.depth,0,Ce,B,se.data);T.layerUpdates.size>0&&T.clearLayerUpdates()}else{Ee&&Ae&&t.texStorage2D(i.TEXTURE_2D,ot,he,Re[0].width,Re[0].height);for(let we=0,qe=Re.length;we<qe;we++)se=Re[we],T.format!==Hn?Ce!==null?Ee?Xe&&t.compressedTexSubImage2D(i.TEXTURE_2D,we,0,0,se.width,se.height,Ce,se.data):t.compressedTexImage2D(i.TEXTURE_2D,we,he,se.width,se.height,0,se.data):et("WebGLRenderer: Attempt to load unsupported compressed texture format in .uploadTexture()"):Ee?Xe&&t.texSubImage2D(i.TEXTURE_2D,we,0,0,se.width,se.height,Ce,B,se.data):t.texImage2D(i.TEXTURE_2D,we,he,se.width,se.height,0,Ce,B,se.data)}else if(T.isDataArrayTexture)if(Ee){if(Ae&&t.texStorage3D(i.TEXTURE_2D_ARRAY,ot,he,le.width,le.height,le.depth),Xe)if(T.layerUpdates.size>0){let we=Ic(le.width,le.height,T.format,T.type);for(let qe of T.layerUpdates){let lt=le.data.subarray(qe*we/le.data.BYTES_PER_ELEMENT,(qe+1)*we/le.data.BYTES_PER_ELEMENT);t.texSubImage3D(i.TEXTURE_2D_ARRAY,0,0,0,qe,le.width,le.height,1,Ce,B,lt)}T.clearLayerUpdates()}else t.texSubImage3D(i.TEXTURE_2D_ARRAY,0,0,0,0,le.width,le.height,le.depth,Ce,B,le.data)}else t.texImage3D(i.TEXTURE_2D_ARRAY,0,he,le.width,le.height,le.depth,0,Ce,B,le.data);else if(T.isData3DTexture)Ee?(Ae&&t.texStorage3D(i.TEXTURE_3D,ot,he,le.width,le.height,le.depth),Xe&&t.texSubImage3D(i.TEXTURE_3D,0,0,0,0,le.width,le.height,le.depth,Ce,B,le.data)):t.texImage3D(i.TEXTURE_3D,0,he,le.width,le.height,le.depth,0,Ce,B,le.data);else if(T.isFramebufferTexture){if(Ae)if(Ee)t.texStorage2D(i.TEXTURE_2D,ot,he,le.width,le.height);else{let we=le.width,qe=le.height;for(let lt=0;lt<ot;lt++)t.texImage2D(i.TEXTURE_2D,lt,he,we,qe,0,Ce,B,null),we>>=1,qe>>=1}}else if(T.isHTMLTexture){if("texElementImage2D"in i){let we=i.canvas;if(we.hasAttribute("layoutsubtree")||we.setAttribute("layoutsubtree","true"),le.parentNode!==we){we.appendChild(le),v.add(T),we.onpaint=qe=>{let lt=qe.changedElements;for(let Oe of v)lt.includes(Oe.image)&&(Oe.needsUpdate=!0)},we.requestPaint();return}if(i.texElementImage2D.length===3)i.texElementImage2D(i.TEXTURE_2D,i.RGBA8,le);else{let lt=i.RGBA,Oe=i.RGBA,Et=i.UNSIGNED_BYTE;i.texElementImage2D(i.TEXTURE_2D,0,lt,Oe,Et,le)}i.texParameteri(i.TEXTURE_2D,i.TEXTURE_MIN_FILTER,i.LINEAR),i.texParameteri(i.TEXTURE_2D,i.TEXTURE_WRAP_S,i.CLAMP_TO_EDGE),i.texParameteri(i.TEXTURE_2D,i.TEXTURE_WRAP_T,i.CLAMP_TO_EDGE)}}else if(Re.length>0){if(Ee&&Ae){let we=Je(Re[0]);t.texStorage2D(i.TEXTURE_2D,ot,he,we.width,we.height)}for(let we=0,qe=Re.length;we<qe;we++)se=Re[we],Ee?Xe&&t.texSubImage2D(i.TEXTURE_2D,we,0,0,Ce,B,se):t.texImage2D(i.TEXTURE_2D,we,he,Ce,B,se);T.generateMipmaps=!1}else if(Ee){if(Ae){let we=Je(le);t.texStorage2D(i.TEXTURE_2D,ot,he,we.width,we.height)}Xe&&t.texSubImage2D(i.TEXTURE_2D,0,0,0,Ce,B,le)}else t.texImage2D(i.TEXTURE_2D,0,he,Ce,B,le);O(T)&&T.mipmapsAutoUpdate===!0&&P(ve),Me.__version=pe.version,T.onUpdate&&T.onUpdate(T)}D.__version=T.version}function Rt(D,T,j){if(T.image.length!==6)return;let ve=Tt(D,T),de=T.source;t.bindTexture(i.TEXTURE_CUBE_MAP,D.__webglTexture,i.TEXTURE0+j);let pe=n.get(de);if(de.version!==pe.__version||ve===!0){t.activeTexture(i.TEXTURE0+j);let Me=yt.getPrimaries(yt.workingColorSpace),ae=T.colorSpace===Si?null:yt.getPrimaries(T.colorSpace),le=T.colorSpace===Si||Me===ae?i.NONE:i.BROWSER_DEFAULT_WEBGL;t.pixelStorei(i.UNPACK_FLIP_Y_WEBGL,T.flipY),t.pixelStorei(i.UNPACK_PREMULTIPLY_ALPHA_WEBGL,T.premultiplyAlpha),t.pixelStorei(i.UNPACK_ALIGNMENT,T.unpackAlignment),t.pixelStorei(i.UNPACK_COLORSPACE_CONVERSION_WEBGL,le);let Ce=T.isCompressedTexture||T.image[0].isCompressedTexture,B=T.image[0]&&T.image[0].isDataTexture,he=[];for(let Oe=0;Oe<6;Oe++)!Ce&&!B?he[Oe]=I(T.image[Oe],!0,s.maxCubemapSize):he[Oe]=B?T.image[Oe].image:T.image[Oe],he[Oe]=je(T,he[Oe]);let se=he[0],Re=o.convert(T.format,T.colorSpace),Ee=o.convert(T.type),Ae=N(T.internalFormat,Re,Ee,T.normalized,T.colorSpace),Xe=T.isVideoTexture!==!0,ot=pe.__version===void 0||ve===!0,we=de.dataReady,qe=L(T,se);wt(i.TEXTURE_CUBE_MAP,T);let lt;if(T.isDepthTexture){if(Ae=b(T.format===xi,T.type),ot)if(Xe)t.texStorage2D(i.TEXTURE_CUBE_MAP,1,Ae,se.width,se.height);else for(let Oe=0;Oe<6;Oe++)t.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,0,Ae,se.width,se.height,0,Re,Ee,null)}else if(Ce){Xe&&ot&&t.texStorage2D(i.TEXTURE_CUBE_MAP,qe,Ae,se.width,se.height);for(let Oe=0;Oe<6;Oe++){lt=he[Oe].mipmaps;for(let Et=0;Et<lt.length;Et++){let Ot=lt[Et];T.format!==Hn?Re!==null?Xe?we&&t.compressedTexSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,Et,0,0,Ot.width,Ot.height,Re,Ot.data):t.compressedTexImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,Et,Ae,Ot.width,Ot.height,0,Ot.data):et("WebGLRenderer: Attempt to load unsupported compressed texture format in .setTextureCube()"):Xe?we&&t.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,Et,0,0,Ot.width,Ot.height,Re,Ee,Ot.data):t.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,Et,Ae,Ot.width,Ot.height,0,Re,Ee,Ot.data)}}}else{if(lt=T.mipmaps,Xe&&ot){lt.length>0&&qe++;let Oe=Je(he[0]);t.texStorage2D(i.TEXTURE_CUBE_MAP,qe,Ae,Oe.width,Oe.height)}for(let Oe=0;Oe<6;Oe++)if(B){Xe?we&&t.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,0,0,0,he[Oe].width,he[Oe].height,Re,Ee,he[Oe].data):t.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,0,Ae,he[Oe].width,he[Oe].height,0,Re,Ee,he[Oe].data);for(let Et=0;Et<lt.length;Et++){let oi=lt[Et].image[Oe].image;Xe?we&&t.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,Et+1,0,0,oi.width,oi.height,Re,Ee,oi.data):t.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,Et+1,Ae,oi.width,oi.height,0,Re,Ee,oi.data)}}else{Xe?we&&t.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,0,0,0,Re,Ee,he[Oe]):t.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,0,Ae,Re,Ee,he[Oe]);for(let Et=0;Et<lt.length;Et++){let Ot=lt[Et];Xe?we&&t.texSubImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,Et+1,0,0,Re,Ee,Ot.image[Oe]):t.texImage2D(i.TEXTURE_CUBE_MAP_POSITIVE_X+Oe,Et+1,Ae,Re,Ee,Ot.image[Oe])}}}O(T)&&T.mipmapsAutoUpdate===!0&&P(i.TEXTURE_CUBE_MAP),pe.__version=de.version,T.onUpdate&&T.onUpdate(T)}D.__version=T.version}function St(D,T,j,ve,de,pe){let Me=o.convert(j.format,j.colorSpace),ae=o.convert(j.type),le=N(j.internalFormat,Me,ae,j.normalized,j.colorSpace),Ce=n.get(T),B=n.get(j);if(B.__renderTarget=T,!Ce.__hasExternalTextures){let he=Math.max(1,T.width>>pe),se=Math.max(1,T.height>>pe);de===i.TEXTURE_3D||de===i.TEXTURE_2D_ARRAY?t.texImage3D(de,pe,le,he,se,T.depth,0,Me,ae,null):t.texImage2D(de,pe,le,he,se,0,Me,ae,null)}t.bindFramebuffer(i.FRAMEBUFFER,D),De(T)?h.framebufferTexture2DMultisampleEXT(i.FRAMEBUFFER,ve,de,B.__webglTexture,0,Nt(T)):(de===i.TEXTURE_2D||de>=i.TEXTURE_CUBE_MAP_POSITIVE_X&&de<=i.TEXTURE_CUBE_MAP_NEGATIVE_Z)&&i.framebufferTexture2D(i.FRAMEBUFFER,ve,de,B.__webglTexture,pe),t.bindFramebuffer(i.FRAMEBUFFER,null)}function Qt(D,T,j){if(i.bindRenderbuffer(i.RENDERBUFFER,D),T.depthBuffer){let ve=T.depthTexture,de=ve&&ve.isDepthTexture?ve.type:null,pe=b(T.stencilBuffer,de),Me=T.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT;De(T)?h.renderbufferStorageMultisampleEXT(i.RENDERBUFFER,Nt(T),pe,T.width,T.height):j?i.renderbufferStorageMultisample(i.RENDERBUFFER,Nt(T),pe,T.width,T.height):i.renderbufferStorage(i.RENDERBUFFER,pe,T.width,T.height),i.framebufferRenderbuffer(i.FRAMEBUFFER,Me,i.RENDERBUFFER,D)}else{let ve=T.textures;for(let de=0;de<ve.length;de++){let pe=ve[de],Me=o.convert(pe.format,pe.colorSpace),ae=o.convert(pe.type),le=N(pe.internalFormat,Me,ae,pe.normalized,pe.colorSpace);De(T)?h.renderbufferStorageMultisampleEXT(i.RENDERBUFFER,Nt(T),le,T.width,T.height):j?i.renderbufferStorageMultisample(i.RENDERBUFFER,Nt(T),le,T.width,T.height):i.renderbufferStorage(i.RENDERBUFFER,le,T.width,T.height)}}i.bindRenderbuffer(i.RENDERBUFFER,null)}function Le(D,T,j){let ve=T.isWebGLCubeRenderTarget===!0;if(t.bindFramebuffer(i.FRAMEBUFFER,D),!(T.depthTexture&&T.depthTexture.isDepthTexture))throw new Error("THREE.WebGLTextures: renderTarget.depthTexture must be an instance of THREE.DepthTexture.");let de=n.get(T.depthTexture);de.__renderTarget=T;let pe=ve?T.depthTexture.image[0]:T.depthTexture.image;(!de.__webglTexture||pe.width!==T.width||pe.height!==T.height)&&(pe.width=T.width,pe.height=T.height,T.depthTexture.needsUpdate=!0),ve?Ue(T.depthTexture,0):Fe(T.depthTexture,0);let Me=de.__webglTexture,ae=Nt(T),le=ve?i.TEXTURE_CUBE_MAP_POSITIVE_X+j:i.TEXTURE_2D,Ce=T.depthTexture.format===xi?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT;if(T.depthTexture.format===mi)De(T)?h.framebufferTexture2DMultisampleEXT(i.FRAMEBUFFER,Ce,le,Me,0,ae):i.framebufferTexture2D(i.FRAMEBUFFER,Ce,le,Me,0);else if(T.depthTexture.format===xi)De(T)?h.framebufferTexture2DMultisampleEXT(i.FRAMEBUFFER,Ce,le,Me,0,ae):i.framebufferTexture2D(i.FRAMEBUFFER,Ce,le,Me,0);else throw new Error("THREE.WebGLTextures: Unknown depthTexture format.")}function $e(D){let T=n.get(D),j=D.isWebGLCubeRenderTarget===!0;if(T.__boundDepthTexture!==D.depthTexture){let ve=D.depthTexture;if(T.__depthDisposeCallback&&T.__depthDisposeCallback(),ve){let de=()=>{delete T.__boundDepthTexture,delete T.__depthDisposeCallback,ve.removeEventListener("dispose",de)};ve.addEventListener("dispose",de),T.__depthDisposeCallback=de}T.__boundDepthTexture=ve}if(D.depthTexture&&!T.__autoAllocateDepthBuffer)if(j)for(let ve=0;ve<6;ve++)Le(T.__webglFramebuffer[ve],D,ve);else D.texture.mipmaps.length>0?Le(T.__webglFramebuffer[0],D,0):Le(T.__webglFramebuffer,D,0);else if(j){T.__webglDepthbuffer=[];for(let ve=0;ve<6;ve++)if(t.bindFramebuffer(i.FRAMEBUFFER,T.__webglFramebuffer[ve]),T.__webglDepthbuffer[ve]===void 0)T.__webglDepthbuffer[ve]=i.createRenderbuffer(),Qt(T.__webglDepthbuffer[ve],D,!1);else{let de=D.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT,pe=T.__webglDepthbuffer[ve];i.bindRenderbuffer(i.RENDERBUFFER,pe),i.framebufferRenderbuffer(i.FRAMEBUFFER,de,i.RENDERBUFFER,pe)}}else if(D.texture.mipmaps.length>0?t.bindFramebuffer(i.FRAMEBUFFER,T.__webglFramebuffer[0]):t.bindFramebuffer(i.FRAMEBUFFER,T.__webglFramebuffer),T.__webglDepthbuffer===void 0)T.__webglDepthbuffer=i.createRenderbuffer(),Qt(T.__webglDepthbuffer,D,!1);else{let de=D.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT,pe=T.__webglDepthbuffer;i.bindRenderbuffer(i.RENDERBUFFER,pe),i.framebufferRenderbuffer(i.FRAMEBUFFER,de,i.RENDERBUFFER,pe)}t.bindFramebuffer(i.FRAMEBUFFER,null)}function an(D,T,j){let ve=n.get(D);T!==void 0&&St(ve.__webglFramebuffer,D,D.texture,i.COLOR_ATTACHMENT0,i.TEXTURE_2D,0),j!==void 0&&$e(D)}function en(D){let T=D.texture,j=n.get(D),ve=n.get(T);D.addEventListener("dispose",J),q(D);let de=D.textures,pe=D.isWebGLCubeRenderTarget===!0,Me=de.length>1;if(Me||(ve.__webglTexture===void 0&&(ve.__webglTexture=i.createTexture()),ve.__version=T.version,c.memory.textures++),pe){j.__webglFramebuffer=[];for(let ae=0;ae<6;ae++)if(T.mipmaps.length>0){j.__webglFramebuffer[ae]=[];for(let le=0;le<T.mipmaps.length;le++)j.__webglFramebuffer[ae][le]=i.createFramebuffer()}else j.__webglFramebuffer[ae]=i.createFramebuffer()}else{if(T.mipmaps.length>0){j.__webglFramebuffer=[];for(let ae=0;ae<T.mipmaps.length;ae++)j.__webglFramebuffer[ae]=i.createFramebuffer()}else j.__webglFramebuffer=i.createFramebuffer();if(Me)for(let ae=0,le=de.length;ae<le;ae++){let Ce=n.get(de[ae]);Ce.__webglTexture===void 0&&(Ce.__webglTexture=i.createTexture(),c.memory.textures++)}if(D.samples>0&&De(D)===!1){j.__webglMultisampledFramebuffer=i.createFramebuffer(),j.__webglColorRenderbuffer=[],t.bindFramebuffer(i.FRAMEBUFFER,j.__webglMultisampledFramebuffer);for(let ae=0;ae<de.length;ae++){let le=de[ae];j.__webglColorRenderbuffer[ae]=i.createRenderbuffer(),i.bindRenderbuffer(i.RENDERBUFFER,j.__webglColorRenderbuffer[ae]);let Ce=o.convert(le.format,le.colorSpace),B=o.convert(le.type),he=N(le.internalFormat,Ce,B,le.normalized,le.colorSpace,D.isXRRenderTarget===!0),se=Nt(D);i.renderbufferStorageMultisample(i.RENDERBUFFER,se,he,D.width,D.height),i.framebufferRenderbuffer(i.FRAMEBUFFER,i.COLOR_ATTACHMENT0+ae,i.RENDERBUFFER,j.__webglColorRenderbuffer[ae])}i.bindRenderbuffer(i.RENDERBUFFER,null),D.depthBuffer&&(j.__webglDepthRenderbuffer=i.createRenderbuffer(),Qt(j.__webglDepthRenderbuffer,D,!0)),t.bindFramebuffer(i.FRAMEBUFFER,null)}}if(pe){t.bindTexture(i.TEXTURE_CUBE_MAP,ve.__webglTexture),wt(i.TEXTURE_CUBE_MAP,T);for(let ae=0;ae<6;ae++)if(T.mipmaps.length>0)for(let le=0;le<T.mipmaps.length;le++)St(j.__webglFramebuffer[ae][le],D,T,i.COLOR_ATTACHMENT0,i.TEXTURE_CUBE_MAP_POSITIVE_X+ae,le);else St(j.__webglFramebuffer[ae],D,T,i.COLOR_ATTACHMENT0,i.TEXTURE_CUBE_MAP_POSITIVE_X+ae,0);O(T)?P(i.TEXTURE_CUBE_MAP):T.mipmaps.length>0&&i.texParameteri(i.TEXTURE_CUBE_MAP,i.TEXTURE_MAX_LEVEL,T.mipmaps.length-1),t.unbindTexture()}else if(Me){for(let ae=0,le=de.length;ae<le;ae++){let Ce=de[ae],B=n.get(Ce),he=i.TEXTURE_2D;(D.isWebGL3DRenderTarget||D.isWebGLArrayRenderTarget)&&(he=D.isWebGL3DRenderTarget?i.TEXTURE_3D:i.TEXTURE_2D_ARRAY),t.bindTexture(he,B.__webglTexture),wt(he,Ce),St(j.__webglFramebuffer,D,Ce,i.COLOR_ATTACHMENT0+ae,he,0),O(Ce)&&P(he)}t.unbindTexture()}else{let ae=i.TEXTURE_2D;if((D.isWebGL3DRenderTarget||D.isWebGLArrayRenderTarget)&&(ae=D.isWebGL3DRenderTarget?i.TEXTURE_3D:i.TEXTURE_2D_ARRAY),t.bindTexture(ae,ve.__webglTexture),wt(ae,T),T.mipmaps.length>0)for(let le=0;le<T.mipmaps.length;le++)St(j.__webglFramebuffer[le],D,T,i.COLOR_ATTACHMENT0,ae,le);else St(j.__webglFramebuffer,D,T,i.COLOR_ATTACHMENT0,ae,0);O(T)?P(ae):T.mipmaps.length>0&&i.texParameteri(ae,i.TEXTURE_MAX_LEVEL,T.mipmaps.length-1),t.unbindTexture()}D.depthBuffer&&$e(D)}function W(D){let T=D.textures;for(let j=0,ve=T.length;j<ve;j++){let de=T[j];if(O(de)&&de.mipmapsAutoUpdate===!0){let pe=U(D),Me=n.get(de).__webglTexture;t.bindTexture(pe,Me),P(pe),t.unbindTexture()}}}let fn=[];function At(D){if(D.samples>0){if(De(D)===!1){let T=D.textures,j=D.width,ve=D.height,de=i.COLOR_BUFFER_BIT,pe=D.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT,Me=n.get(D),ae=T.length>1;if(ae)for(let Ce=0;Ce<T.length;Ce++)t.bindFramebuffer(i.FRAMEBUFFER,Me.__webglMultisampledFramebuffer),i.framebufferRenderbuffer(i.FRAMEBUFFER,i.COLOR_ATTACHMENT0+Ce,i.RENDERBUFFER,null),t.bindFramebuffer(i.FRAMEBUFFER,Me.__webglFramebuffer),i.framebufferTexture2D(i.DRAW_FRAMEBUFFER,i.COLOR_ATTACHMENT0+Ce,i.TEXTURE_2D,null,0);t.bindFramebuffer(i.READ_FRAMEBUFFER,Me.__webglMultisampledFramebuffer),D.texture.mipmaps.length>0?t.bindFramebuffer(i.DRAW_FRAMEBUFFER,Me.__webglFramebuffer[0]):t.bindFramebuffer(i.DRAW_FRAMEBUFFER,Me.__webglFramebuffer);for(let Ce=0;Ce<T.length;Ce++){if(D.resolveDepthBuffer&&(D.depthBuffer&&(de|=i.DEPTH_BUFFER_BIT),D.stencilBuffer&&D.resolveStencilBuffer&&(de|=i.STENCIL_BUFFER_BIT)),ae){i.framebufferRenderbuffer(i.READ_FRAMEBUFFER,i.COLOR_ATTACHMENT0,i.RENDERBUFFER,Me.__webglColorRenderbuffer[Ce]);let B=n.get(T[Ce]).__webglTexture;i.framebufferTexture2D(i.DRAW_FRAMEBUFFER,i.COLOR_ATTACHMENT0,i.TEXTURE_2D,B,0)}i.blitFramebuffer(0,0,j,ve,0,0,j,ve,de,i.NEAREST),f===!0&&(fn.length=0,fn.push(i.COLOR_ATTACHMENT0+Ce),D.depthBuffer&&D.storeMultisampledDepthBuffer===!1&&fn.push(pe),i.invalidateFramebuffer(i.READ_FRAMEBUFFER,fn))}if(t.bindFramebuffer(i.READ_FRAMEBUFFER,null),t.bindFramebuffer(i.DRAW_FRAMEBUFFER,null),ae)for(let Ce=0;Ce<T.length;Ce++){t.bindFramebuffer(i.FRAMEBUFFER,Me.__webglMultisampledFramebuffer),i.framebufferRenderbuffer(i.FRAMEBUFFER,i.COLOR_ATTACHMENT0+Ce,i.RENDERBUFFER,Me.__webglColorRenderbuffer[Ce]);let B=n.get(T[Ce]).__webglTexture;t.bindFramebuffer(i.FRAMEBUFFER,Me.__webglFramebuffer),i.framebufferTexture2D(i.DRAW_FRAMEBUFFER,i.COLOR_ATTACHMENT0+Ce,i.TEXTURE_2D,B,0)}t.bindFramebuffer(i.DRAW_FRAMEBUFFER,Me.__webglMultisampledFramebuffer)}else if(D.depthBuffer&&D.storeMultisampledDepthBuffer===!1&&f){let T=D.stencilBuffer?i.DEPTH_STENCIL_ATTACHMENT:i.DEPTH_ATTACHMENT;i.invalidateFramebuffer(i.DRAW_FRAMEBUFFER,[T])}}}function Nt(D){return Math.min(s.maxSamples,D.samples)}function De(D){let T=n.get(D);return D.samples>0&&e.has("WEBGL_multisampled_render_to_texture")===!0&&T.__useRenderToTexture!==!1}function Xt(D){let T=c.render.frame;m.get(D)!==T&&(m.set(D,T),D.update())}function je(D,T){let j=D.colorSpace,ve=D.format,de=D.type;return D.isCompressedTexture===!0||D.isVideoTexture===!0||j!==is&&j!==Si&&(yt.getTransfer(j)===Ct?(ve!==Hn||de!==Sn)&&et("WebGLTextures: sRGB encoded textures have to use RGBAFormat and UnsignedByteType."):tt("WebGLTextures: Unsupported texture color space:",j)),T}function Je(D){return typeof HTMLImageElement<"u"&&D instanceof HTMLImageElement?(d.width=D.naturalWidth||D.width,d.height=D.naturalHeight||D.height):typeof VideoFrame<"u"&&D instanceof VideoFrame?(d.width=D.displayWidth,d.height=D.displayHeight):(d.width=D.width,d.height=D.height),d}this.allocateTextureUnit=nt,this.resetTextureUnits=H,this.getTextureUnits=me,this.setTextureUnits=We,this.setTexture2D=Fe,this.setTexture2DArray=Pe,this.setTexture3D=Ye,this.setTextureCube=Ue,this.rebindTextures=an,this.setupRenderTarget=en,this.updateRenderTargetMipmap=W,this.updateMultisampleRenderTarget=At,this.setupDepthRenderbuffer=$e,this.setupFrameBufferTexture=St,this.useMultisampledRTT=De,this.dispose=ie}function yM(i,e){function t(n,s=Si){let o,c=yt.getTransfer(s);if(n===Sn)return i.UNSIGNED_BYTE;if(n===ho)return i.UNSIGNED_SHORT_4_4_4_4;if(n===uo)return i.UNSIGNED_SHORT_5_5_5_1;if(n===mc)return i.UNSIGNED_INT_5_9_9_9_REV;if(n===gc)return i.UNSIGNED_INT_10F_11F_11F_REV;if(n===fc)return i.BYTE;if(n===pc)return i.SHORT;if(n===Br)return i.UNSIGNED_SHORT;if(n===co)return i.INT;if(n===zn)return i.UNSIGNED_INT;if(n===Gn)return i.FLOAT;if(n===Vn)return i.HALF_FLOAT;if(n===_c)return i.ALPHA;if(n===vc)return i.RGB;if(n===Hn)return i.RGBA;if(n===mi)return i.DEPTH_COMPONENT;if(n===xi)return i.DEPTH_STENCIL;if(n===yc)return i.RED;if(n===fo)return i.RED_INTEGER;if(n===Ui)return i.RG;if(n===po)return i.RG_INTEGER;if(n===mo)return i.RGBA_INTEGER;if(n===Es||n===Ts||n===As||n===Cs)if(c===Ct)if(o=e.get("WEBGL_compressed_texture_s3tc_srgb"),o!==null){if(n===Es)return o.COMPRESSED_SRGB_S3TC_DXT1_EXT;if(n===Ts)return o.COMPRESSED_SRGB_ALPHA_S3TC_DXT1_EXT;if(n===As)return o.COMPRESSED_SRGB_ALPHA_S3TC_DXT3_EXT;if(n===Cs)return o.COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT}else return null;else if(o=e.get("WEBGL_compressed_texture_s3tc"),o!==null){if(n===Es)return o.COMPRESSED_RGB_S3TC_DXT1_EXT;if(n===Ts)return o.COMPRESSED_RGBA_S3TC_DXT1_EXT;if(n===As)return o.COMPRESSED_RGBA_S3TC_DXT3_EXT;if(n===Cs)return o.COMPRESSED_RGBA_S3TC_DXT5_EXT}else return null;if(n===go||n===_o||n===vo||n===yo)if(o=e.get("WEBGL_compressed_texture_pvrtc"),o!==null){if(n===go)return o.COMPRESSED_RGB_PVRTC_4BPPV1_IMG;if(n===_o)return o.COMPRESSED_RGB_PVRTC_2BPPV1_IMG;if(n===vo)return o.COMPRESSED_RGBA_PVRTC_4BPPV1_IMG;if(n===yo)return o.COMPRESSED_RGBA_PVRTC_2BPPV1_IMG}else return null;if(n===xo||n===So||n===Mo||n===bo||n===wo||n===Rs||n===Eo)if(o=e.get("WEBGL_compressed_texture_etc"),o!==null){if(n===xo||n===So)return c===Ct?o.COMPRESSED_SRGB8_ETC2:o.COMPRESSED_RGB8_ETC2;if(n===Mo)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ETC2_EAC:o.COMPRESSED_RGBA8_ETC2_EAC;if(n===bo)return o.COMPRESSED_R11_EAC;if(n===wo)return o.COMPRESSED_SIGNED_R11_EAC;if(n===Rs)return o.COMPRESSED_RG11_EAC;if(n===Eo)return o.COMPRESSED_SIGNED_RG11_EAC}else return null;if(n===To||n===Ao||n===Co||n===Ro||n===Po||n===Io||n===Lo||n===Do||n===Fo||n===No||n===Uo||n===Oo||n===Bo||n===ko)if(o=e.get("WEBGL_compressed_texture_astc"),o!==null){if(n===To)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_4x4_KHR:o.COMPRESSED_RGBA_ASTC_4x4_KHR;if(n===Ao)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_5x4_KHR:o.COMPRESSED_RGBA_ASTC_5x4_KHR;if(n===Co)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_5x5_KHR:o.COMPRESSED_RGBA_ASTC_5x5_KHR;if(n===Ro)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_6x5_KHR:o.COMPRESSED_RGBA_ASTC_6x5_KHR;if(n===Po)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_6x6_KHR:o.COMPRESSED_RGBA_ASTC_6x6_KHR;if(n===Io)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_8x5_KHR:o.COMPRESSED_RGBA_ASTC_8x5_KHR;if(n===Lo)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_8x6_KHR:o.COMPRESSED_RGBA_ASTC_8x6_KHR;if(n===Do)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_8x8_KHR:o.COMPRESSED_RGBA_ASTC_8x8_KHR;if(n===Fo)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_10x5_KHR:o.COMPRESSED_RGBA_ASTC_10x5_KHR;if(n===No)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_10x6_KHR:o.COMPRESSED_RGBA_ASTC_10x6_KHR;if(n===Uo)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_10x8_KHR:o.COMPRESSED_RGBA_ASTC_10x8_KHR;if(n===Oo)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_10x10_KHR:o.COMPRESSED_RGBA_ASTC_10x10_KHR;if(n===Bo)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_12x10_KHR:o.COMPRESSED_RGBA_ASTC_12x10_KHR;if(n===ko)return c===Ct?o.COMPRESSED_SRGB8_ALPHA8_ASTC_12x12_KHR:o.COMPRESSED_RGBA_ASTC_12x12_KHR}else return null;if(n===zo||n===Go||n===Vo)if(o=e.get("EXT_texture_compression_bptc"),o!==null){if(n===zo)return c===Ct?o.COMPRESSED_SRGB_ALPHA_BPTC_UNORM_EXT:o.COMPRESSED_RGBA_BPTC_UNORM_EXT;if(n===Go)return o.COMPRESSED_RGB_BPTC_SIGNED_FLOAT_EXT;if(n===Vo)return o.COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT_EXT}else return null;if(n===Ho||n===Wo||n===Ps||n===Xo)if(o=e.get("EXT_texture_compression_rgtc"),o!==null){if(n===Ho)return o.COMPRESSED_RED_RGTC1_EXT;if(n===Wo)return o.COMPRESSED_SIGNED_RED_RGTC1_EXT;if(n===Ps)return o.COMPRESSED_RED_GREEN_RGTC2_EXT;if(n===Xo)return o.COMPRESSED_SIGNED_RED_GREEN_RGTC2_EXT}else return null;return n===nr?i.UNSIGNED_INT_24_8:i[n]!==void 0?i[n]:null}return{convert:t}}var xM=`
+void main() {
+
+	gl_Position = vec4( position, 1.0 );
+
+}`,SM=`
+uniform sampler2DArray depthColor;
+uniform float depthWidth;
+uniform float depthHeight;
+
+void main() {
+
+	vec2 coord = vec2( gl_FragCoord.x / depthWidth, gl_FragCoord.y / depthHeight );
+
+	if ( coord.x >= 1.0 ) {
+
+		gl_FragDepth = texture( depthColor, vec3( coord.x - 1.0, coord.y, 1 ) ).r;
+
+	} else {
+
+		gl_FragDepth = texture( depthColor, vec3( coord.x, coord.y, 0 ) ).r;
+
+	}
+
+}`,zc=class{constructor(){this.texture=null,this.mesh=null,this.depthNear=0,this.depthFar=0}init(e,t){if(this.texture===null){let n=new fs(e.texture);(e.depthNear!==t.depthNear||e.depthFar!==t.depthFar)&&(this.depthNear=e.depthNear,this.depthFar=e.depthFar),this.texture=n}}getMesh(e){if(this.texture!==null&&this.mesh===null){let t=e.cameras[0].viewport,n=new ni({vertexShader:xM,fragmentShader:SM,uniforms:{depthColor:{value:this.texture},depthWidth:{value:t.z},depthHeight:{value:t.w}}});this.mesh=new Ln(new gs(20,20),n)}return this.mesh}reset(){this.texture=null,this.mesh=null}getDepthTexture(){return this.texture}},Gc=class extends ei{constructor(e,t){super();let n=this,s=null,o=1,c=null,h="local-floor",f=1,d=null,m=null,v=null,g=null,S=null,w=null,R=typeof XRWebGLBinding<"u",x=new zc,y={},I=t.getContextAttributes(),O=null,P=null,U=[],N=[],b=new gt,L=null,q=null,k=new gn;k.viewport=new zt;let Y=new gn;Y.viewport=new zt;let J=[k,Y],ee=new so,z=null,ie=null;this.cameraAutoUpdate=!0,this.enabled=!1,this.isPresenting=!1,this.getController=function(ue){let Fe=U[ue];return Fe===void 0&&(Fe=new Rr,U[ue]=Fe),Fe.getTargetRaySpace()},this.getControllerGrip=function(ue){let Fe=U[ue];return Fe===void 0&&(Fe=new Rr,U[ue]=Fe),Fe.getGripSpace()},this.getHand=function(ue){let Fe=U[ue];return Fe===void 0&&(Fe=new Rr,U[ue]=Fe),Fe.getHandSpace()};function G(ue){let Fe=N.indexOf(ue.inputSource);if(Fe===-1)return;let Pe=U[Fe];Pe!==void 0&&(Pe.update(ue.inputSource,ue.frame,d||c),Pe.dispatchEvent({type:ue.type,data:ue.inputSource}))}function ne(){s.removeEventListener("select",G),s.removeEventListener("selectstart",G),s.removeEventListener("selectend",G),s.removeEventListener("squeeze",G),s.removeEventListener("squeezestart",G),s.removeEventListener("squeezeend",G),s.removeEventListener("end",ne),s.removeEventListener("inputsourceschange",Se);for(let ue=0;ue<U.length;ue++){let Fe=N[ue];Fe!==null&&(N[ue]=null,U[ue].disconnect(Fe))}z=null,ie=null,x.reset();for(let ue in y)delete y[ue];if(e.setRenderTarget(O),S=null,g=null,v=null,s=null,P=null,nt.stop(),n.isPresenting=!1,e.setPixelRatio(L),e.setSize(b.width,b.height,!1),q!==null){let ue=q.camera;ue.fov=q.fov,ue.zoom=q.zoom,ue.updateProjectionMatrix(),q=null}n.dispatchEvent({type:"sessionend"})}this.setFramebufferScaleFactor=function(ue){o=ue,n.isPresenting===!0&&et("WebXRManager: Cannot change framebuffer scale while presenting.")},this.setReferenceSpaceType=function(ue){h=ue,n.isPresenting===!0&&et("WebXRManager: Cannot change reference space type while presenting.")},this.getReferenceSpace=function(){return d||c},this.setReferenceSpace=function(ue){d=ue},this.getBaseLayer=function(){return g!==null?g:S},this.getBinding=function(){return v===null&&R&&(v=new XRWebGLBinding(s,t)),v},this.getFrame=function(){return w},this.getSession=function(){return s},this.setSession=async function(ue){if(s=ue,s!==null){if(O=e.getRenderTarget(),s.addEventListener("select",G),s.addEventListener("selectstart",G),s.addEventListener("selectend",G),s.addEventListener("squeeze",G),s.addEventListener("squeezestart",G),s.addEventListener("squeezeend",G),s.addEventListener("end",ne),s.addEventListener("inputsourceschange",Se),I.xrCompatible!==!0&&await t.makeXRCompatible(),L=e.getPixelRatio(),e.getSize(b),R&&"createProjectionLayer"in XRWebGLBinding.prototype){let Pe=null,Ye=null,Ue=null;I.depth&&(Ue=I.stencil?t.DEPTH24_STENCIL8:t.DEPTH_COMPONENT24,Pe=I.stencil?xi:mi,Ye=I.stencil?nr:zn);let rt={colorFormat:t.RGBA8,depthFormat:Ue,scaleFactor:o};v=this.getBinding(),g=v.createProjectionLayer(rt),s.updateRenderState({layers:[g]}),e.setPixelRatio(1),e.setSize(g.textureWidth,g.textureHeight,!1),P=new En(g.textureWidth,g.textureHeight,{format:Hn,type:Sn,depthTexture:new vi(g.textureWidth,g.textureHeight,Ye,void 0,void 0,void 0,void 0,void 0,void 0,Pe),stencilBuffer:I.stencil,colorSpace:e.outputColorSpace,samples:I.antialias?4:0,resolveDepthBuffer:g.ignoreDepthValues===!1,resolveStencilBuffer:g.ignoreDepthValues===!1,storeMultisampledDepthBuffer:g.ignoreDepthValues===!1,storeMultisampledStencilBuffer:g.ignoreDepthValues===!1})}else{let Pe={antialias:I.antialias,alpha:!0,depth:I.depth,stencil:I.stencil,framebufferScaleFactor:o};S=new XRWebGLLayer(s,t,Pe),s.updateRenderState({baseLayer:S}),e.setPixelRatio(1),e.setSize(S.framebufferWidth,S.framebufferHeight,!1),P=new En(S.framebufferWidth,S.framebufferHeight,{format:Hn,type:Sn,colorSpace:e.outputColorSpace,stencilBuffer:I.stencil,resolveDepthBuffer:S.ignoreDepthValues===!1,resolveStencilBuffer:S.ignoreDepthValues===!1,storeMultisampledDepthBuffer:S.ignoreDepthValues===!1,storeMultisampledStencilBuffer:S.ignoreDepthValues===!1})}P.isXRRenderTarget=!0,this.setFoveation(f),d=null,c=await s.requestReferenceSpace(h),nt.setContext(s),nt.start(),n.isPresenting=!0,n.dispatchEvent({type:"sessionstart"})}},this.getEnvironmentBlendMode=function(){if(s!==null)return s.environmentBlendMode},this.getDepthTexture=function(){return x.getDepthTexture()};function Se(ue){for(let Fe=0;Fe<ue.removed.length;Fe++){let Pe=ue.removed[Fe],Ye=N.indexOf(Pe);Ye>=0&&(N[Ye]=null,U[Ye].disconnect(Pe))}for(let Fe=0;Fe<ue.added.length;Fe++){let Pe=ue.added[Fe],Ye=N.indexOf(Pe);if(Ye===-1){for(let rt=0;rt<U.length;rt++)if(rt>=N.length){N.push(Pe),Ye=rt;break}else if(N[rt]===null){N[rt]=Pe,Ye=rt;break}if(Ye===-1)break}let Ue=U[Ye];Ue&&Ue.connect(Pe)}}function re(ue,Fe){Fe===null?ue.matrixWorld.copy(ue.matrix):ue.matrixWorld.multiplyMatrices(Fe.matrixWorld,ue.matrix),ue.matrixWorldInverse.copy(ue.matrixWorld).invert()}this.updateCamera=function(ue){if(s===null)return;let Fe=ue.near,Pe=ue.far;x.texture!==null&&(x.depthNear>0&&(Fe=x.depthNear),x.depthFar>0&&(Pe=x.depthFar)),ee.near=Y.near=k.near=Fe,ee.far=Y.far=k.far=Pe,(z!==ee.near||ie!==ee.far)&&(s.updateRenderState({depthNear:ee.near,depthFar:ee.far}),z=ee.near,ie=ee.far),ee.layers.mask=ue.layers.mask|6,k.layers.mask=ee.layers.mask&-5,Y.layers.mask=ee.layers.mask&-3;let Ye=ue.parent,Ue=ee.cameras;re(ee,Ye);for(let rt=0;rt<Ue.length;rt++)re(Ue[rt],Ye);ee.projectionMatrix.copy(k.projectionMatrix),ee.projectionMatrixInverse.copy(k.projectionMatrixInverse),q===null&&ue.isPerspectiveCamera&&(q={camera:ue,fov:ue.fov,zoom:ue.zoom}),H(ue,ee,Ye)};function H(ue,Fe,Pe){Pe===null?ue.matrix.copy(Fe.matrixWorld):(ue.matrix.copy(Pe.matrixWorld),ue.matrix.invert(),ue.matrix.multiply(Fe.matrixWorld)),ue.matrix.decompose(ue.position,ue.quaternion,ue.scale),ue.updateMatrixWorld(!0),ue.projectionMatrix.copy(Fe.projectionMatrix),ue.projectionMatrixInverse.copy(Fe.projectionMatrixInverse),ue.isPerspectiveCamera&&(ue.fov=Tr*2*Math.atan(1/ue.projectionMatrix.elements[5]),ue.zoom=1)}this.getCamera=function(){return ee},this.getFoveation=function(){if(!(g===null&&S===null))return f},this.setFoveation=function(ue){f=ue,g!==null&&(g.fixedFoveation=ue),S!==null&&S.fixedFoveation!==void 0&&(S.fixedFoveation=ue)},this.hasDepthSensing=function(){return x.texture!==null},this.getDepthSensingMesh=function(){return x.getMesh(ee)},this.getCameraTexture=function(ue){return y[ue]};let me=null;function We(ue,Fe){if(m=Fe.getViewerPose(d||c),w=Fe,m!==null){let Pe=m.views;S!==null&&(e.setRenderTargetFramebuffer(P,S.framebuffer),e.setRenderTarget(P));let Ye=!1;Pe.length!==ee.cameras.length&&(ee.cameras.length=0,Ye=!0);for(let Qe=0;Qe<Pe.length;Qe++){let wt=Pe[Qe],Tt=null;if(S!==null)Tt=S.getViewport(wt);else{let Vt=v.getViewSubImage(g,wt);Tt=Vt.viewport,Qe===0&&(e.setRenderTargetTextures(P,Vt.colorTexture,Vt.depthStencilTexture),e.setRenderTarget(P))}let dt=J[Qe];dt===void 0&&(dt=new gn,dt.layers.enable(Qe),dt.viewport=new zt,J[Qe]=dt),dt.matrix.fromArray(wt.transform.matrix),dt.matrix.decompose(dt.position,dt.quaternion,dt.scale),dt.projectionMatrix.fromArray(wt.projectionMatrix),dt.projectionMatrixInverse.copy(dt.projectionMatrix).invert(),dt.viewport.set(Tt.x,Tt.y,Tt.width,Tt.height),Qe===0&&(ee.matrix.copy(dt.matrix),ee.matrix.decompose(ee.position,ee.quaternion,ee.scale)),Ye===!0&&ee.cameras.push(dt)}let Ue=s.enabledFeatures;if(Ue&&Ue.includes("depth-sensing")&&s.depthUsage=="gpu-optimized"&&R){v=n.getBinding();let Qe=v.getDepthInformation(Pe[0]);Qe&&Qe.isValid&&Qe.texture&&x.init(Qe,s.renderState)}if(Ue&&Ue.includes("camera-access")&&R){e.state.unbindTexture(),v=n.getBinding();for(let Qe=0;Qe<Pe.length;Qe++){let wt=Pe[Qe].camera;if(wt){let Tt=y[wt];Tt||(Tt=new fs,y[wt]=Tt);let dt=v.getCameraImage(wt);Tt.sourceTexture=dt}}}}for(let Pe=0;Pe<U.length;Pe++){let Ye=N[Pe],Ue=U[Pe];Ye!==null&&Ue!==void 0&&Ue.update(Ye,Fe,d||c)}me&&me(ue,Fe),Fe.detectedPlanes&&n.dispatchEvent({type:"planesdetected",data:Fe}),w=null}let nt=new yd;nt.setAnimationLoop(We),this.setAnimationLoop=function(ue){me=ue},this.dispose=function(){}}},MM=new It,Rd=new at;Rd.set(-1,0,0,0,1,0,0,0,1);function bM(i,e){function t(x,y){x.matrixAutoUpdate===!0&&x.updateMatrix(),y.value.copy(x.matrix)}function n(x,y){y.color.getRGB(x.fogColor.value,Cc(i)),y.isFog?(x.fogNear.value=y.near,x.fogFar.value=y.far):y.isFogExp2&&(x.fogDensity.value=y.density)}function s(x,y,I,O,P){y.isNodeMaterial?y.uniformsNeedUpdate=!1:y.isMeshBasicMaterial?o(x,y):y.isMeshLambertMaterial?(o(x,y),y.envMap&&(x.envMapIntensity.value=y.envMapIntensity)):y.isMeshToonMaterial?(o(x,y),v(x,y)):y.isMeshPhongMaterial?(o(x,y),m(x,y),y.envMap&&(x.envMapIntensity.value=y.envMapIntensity)):y.isMeshStandardMaterial?(o(x,y),g(x,y),y.isMeshPhysicalMaterial&&S(x,y,P)):y.isMeshMatcapMaterial?(o(x,y),w(x,y)):y.isMeshDepthMaterial?o(x,y):y.isMeshDistanceMaterial?(o(x,y),R(x,y)):y.isMeshNormalMaterial?o(x,y):y.isLineBasicMaterial?(c(x,y),y.isLineDashedMaterial&&h(x,y)):y.isPointsMaterial?f(x,y,I,O):y.isSpriteMaterial?d(x,y):y.isShadowMaterial?(x.color.value.copy(y.color),x.opacity.value=y.opacity):y.isShaderMaterial&&(y.uniformsNeedUpdate=!1)}function o(x,y){x.opacity.value=y.opacity,y.color&&x.diffuse.value.copy(y.color),y.emissive&&x.emissive.value.copy(y.emissive).multiplyScalar(y.emissiveIntensity),y.map&&(x.map.value=y.map,t(y.map,x.mapTransform)),y.alphaMap&&(x.alphaMap.value=y.alphaMap,t(y.alphaMap,x.alphaMapTransform)),y.bumpMap&&(x.bumpMap.value=y.bumpMap,t(y.bumpMap,x.bumpMapTransform),x.bumpScale.value=y.bumpScale,y.side===vn&&(x.bumpScale.value*=-1)),y.normalMap&&(x.normalMap.value=y.normalMap,t(y.normalMap,x.normalMapTransform),x.normalScale.value.copy(y.normalScale),y.side===vn&&x.normalScale.value.negate()),y.displacementMap&&(x.displacementMap.value=y.displacementMap,t(y.displacementMap,x.displacementMapTransform),x.displacementScale.value=y.displacementScale,x.displacementBias.value=y.displacementBias),y.emissiveMap&&(x.emissiveMap.value=y.emissiveMap,t(y.emissiveMap,x.emissiveMapTransform)),y.specularMap&&(x.specularMap.value=y.specularMap,t(y.specularMap,x.specularMapTransform)),y.alphaTest>0&&(x.alphaTest.value=y.alphaTest);let I=e.get(y),O=I.envMap,P=I.envMapRotation;O&&(x.envMap.value=O,x.envMapRotation.value.setFromMatrix4(MM.makeRotationFromEuler(P)).transpose(),O.isCubeTexture&&O.isRenderTargetTexture===!1&&x.envMapRotation.value.premultiply(Rd),x.reflectivity.value=y.reflectivity,x.ior.value=y.ior,x.refractionRatio.value=y.refractionRatio),y.lightMap&&(x.lightMap.value=y.lightMap,x.lightMapIntensity.value=y.lightMapIntensity,t(y.lightMap,x.lightMapTransform)),y.aoMap&&(x.aoMap.value=y.aoMap,x.aoMapIntensity.value=y.aoMapIntensity,t(y.aoMap,x.aoMapTransform))}function c(x,y){x.diffuse.value.copy(y.color),x.opacity.value=y.opacity,y.map&&(x.map.value=y.map,t(y.map,x.mapTransform))}function h(x,y){x.dashSize.value=y.dashSize,x.totalSize.value=y.dashSize+y.gapSize,x.scale.value=y.scale}function f(x,y,I,O){x.diffuse.value.copy(y.color),x.opacity.value=y.opacity,x.size.value=y.size*I,x.scale.value=O*.5,y.map&&(x.map.value=y.map,t(y.map,x.uvTransform)),y.alphaMap&&(x.alphaMap.value=y.alphaMap,t(y.alphaMap,x.alphaMapTransform)),y.alphaTest>0&&(x.alphaTest.value=y.alphaTest)}function d(x,y){x.diffuse.value.copy(y.color),x.opacity.value=y.opacity,x.rotation.value=y.rotation,y.map&&(x.map.value=y.map,t(y.map,x.mapTransform)),y.alphaMap&&(x.alphaMap.value=y.alphaMap,t(y.alphaMap,x.alphaMapTransform)),y.alphaTest>0&&(x.alphaTest.value=y.alphaTest)}function m(x,y){x.specular.value.copy(y.specular),x.shininess.value=Math.max(y.shininess,1e-4)}function v(x,y){y.gradientMap&&(x.gradientMap.value=y.gradientMap)}function g(x,y){x.metalness.value=y.metalness,y.metalnessMap&&(x.metalnessMap.value=y.metalnessMap,t(y.metalnessMap,x.metalnessMapTransform)),x.roughness.value=y.roughness,y.roughnessMap&&(x.roughnessMap.value=y.roughnessMap,t(y.roughnessMap,x.roughnessMapTransform)),y.envMap&&(x.envMapIntensity.value=y.envMapIntensity)}function S(x,y,I){x.ior.value=y.ior,y.diffuseRoughness>0&&(x.diffuseRoughness.value=y.diffuseRoughness,y.diffuseRoughnessMap&&(x.diffuseRoughnessMap.value=y.diffuseRoughnessMap,t(y.diffuseRoughnessMap,x.diffuseRoughnessMapTransform))),y.sheen>0&&(x.sheenColor.value.copy(y.sheenColor).multiplyScalar(y.sheen),x.sheenRoughness.value=y.sheenRoughness,y.sheenColorMap&&(x.sheenColorMap.value=y.sheenColorMap,t(y.sheenColorMap,x.sheenColorMapTransform)),y.sheenRoughnessMap&&(x.sheenRoughnessMap.value=y.sheenRoughnessMap,t(y.sheenRoughnessMap,x.sheenRoughnessMapTransform))),y.clearcoat>0&&(x.clearcoat.value=y.clearcoat,x.clearcoatRoughness.value=y.clearcoatRoughness,y.clearcoatMap&&(x.clearcoatMap.value=y.clearcoatMap,t(y.clearcoatMap,x.clearcoatMapTransform)),y.clearcoatRoughnessMap&&(x.clearcoatRoughnessMap.value=y.clearcoatRoughnessMap,t(y.clearcoatRoughnessMap,x.clearcoatRoughnessMapTransform)),y.clearcoatNormalMap&&(x.clearcoatNormalMap.value=y.clearcoatNormalMap,t(y.clearcoatNormalMap,x.clearcoatNormalMapTransform),x.clearcoatNormalScale.value.copy(y.clearcoatNormalScale),y.side===vn&&x.clearcoatNormalScale.value.negate())),y.dispersion>0&&(x.dispersion.value=y.dispersion),y.retroreflectivity>0&&(x.retroreflectivity.value=y.retroreflectivity),y.iridescence>0&&(x.iridescence.value=y.iridescence,x.iridescenceIOR.value=y.iridescenceIOR,x.iridescenceThicknessMinimum.value=y.iridescenceThicknessMinimum,x.iridescenceThicknessMaximum.value=y.iridescenceThicknessMaximum,y.iridescenceMap&&(x.iridescenceMap.value=y.iridescenceMap,t(y.iridescenceMap,x.iridescenceMapTransform)),y.iridescenceThicknessMap&&(x.iridescenceThicknessMap.value=y.iridescenceThicknessMap,t(y.iridescenceThicknessMap,x.iridescenceThicknessMapTransform))),y.transmission>0&&(x.transmission.value=y.transmission,x.transmissionSamplerMap.value=I.texture,x.transmissionSamplerSize.value.set(I.width,I.height),y.transmissionMap&&(x.transmissionMap.value=y.transmissionMap,t(y.transmissionMap,x.transmissionMapTransform)),x.thickness.value=y.thickness,y.thicknessMap&&(x.thicknessMap.value=y.thicknessMap,t(y.thicknessMap,x.thicknessMapTransform)),x.attenuationDistance.value=y.attenuationDistance,x.attenuationColor.value.copy(y.attenuationColor)),y.anisotropy>0&&(x.anisotropyVector.value.set(y.anisotropy*Math.cos(y.anisotropyRotation),y.anisotropy*Math.sin(y.anisotropyRotation)),y.anisotropyMap&&(x.anisotropyMap.value=y.anisotropyMap,t(y.anisotropyMap,x.anisotropyMapTransform))),x.specularIntensity.value=y.specularIntensity,x.specularColor.value.copy(y.specularColor),y.specularColorMap&&(x.specularColorMap.value=y.specularColorMap,t(y.specularColorMap,x.specularColorMapTransform)),y.specularIntensityMap&&(x.specularIntensityMap.value=y.specularIntensityMap,t(y.specularIntensityMap,x.specularIntensityMapTransform))}function w(x,y){y.matcap&&(x.matcap.value=y.matcap)}function R(x,y){let I=e.get(y).light;x.referencePosition.value.setFromMatrixPosition(I.matrixWorld),x.nearDistance.value=I.shadow.camera.near,x.farDistance.value=I.shadow.camera.far}return{refreshFogUniforms:n,refreshMaterialUniforms:s}}function wM(i,e,t,n){let s={},o={};function c(I,O){let P=O.program;n.uniformBlockBinding(I,P,s[I.id])}function h(I,O){let P=s[I.id];P===void 0&&(w(I),P=f(I),s[I.id]=P,I.addEventListener("dispose",x));let U=O.program;n.updateUBOMapping(I,U);let N=e.render.frame;o[I.id]!==N&&(d(I),o[I.id]=N)}function f(I){let O=i.createBuffer(),P=I.__size,U=I.usage;return i.bindBuffer(i.UNIFORM_BUFFER,O),i.bufferData(i.UNIFORM_BUFFER,P,U),i.bindBuffer(i.UNIFORM_BUFFER,null),O}function d(I){let O=s[I.id],P=I.uniforms,U=I.__cache;i.bindBuffer(i.UNIFORM_BUFFER,O);for(let N=0,b=P.length;N<b;N++){let L=P[N];if(Array.isArray(L))for(let q=0,k=L.length;q<k;q++)m(L[q],N,q,U);else m(L,N,0,U)}i.bindBuffer(i.UNIFORM_BUFFER,null)}function m(I,O,P,U){if(g(I,O,P,U)===!0){let N=I.__offset,b=I.value;if(Array.isArray(b)){let L=0;for(let q=0;q<b.length;q++){let k=b[q],Y=R(k,!0);v(k,I.__data,L),L+=Y.storage/Float32Array.BYTES_PER_ELEMENT}}else v(b,I.__data,0);i.bufferSubData(i.UNIFORM_BUFFER,N,I.__data)}}function v(I,O,P){typeof I=="number"||typeof I=="boolean"?O[P]=I:I.isMatrix3?(O[P]=I.elements[0],O[P+1]=I.elements[1],O[P+2]=I.elements[2],O[P+3]=0,O[P+4]=I.elements[3],O[P+5]=I.elements[4],O[P+6]=I.elements[5],O[P+7]=0,O[P+8]=I.elements[6],O[P+9]=I.elements[7],O[P+10]=I.elements[8],O[P+11]=0):ArrayBuffer.isView(I)?O.set(I.subarray(0,O.length-P),P):I.toArray(O,P)}function g(I,O,P,U){let N=I.value,b=O+"_"+P;if(Array.isArray(N)){U[b]===void 0&&(U[b]=[]);let L=U[b],q=!1;for(let k=0;k<N.length;k++)S(N[k],L,k)===!0&&(q=!0);return q}return S(N,U,b)}function S(I,O,P){if(O[P]===void 0)return typeof I=="number"||typeof I=="boolean"?O[P]=I:ArrayBuffer.isView(I)?O[P]=I.slice():O[P]=I.clone(),!0;{let U=O[P];if(typeof I=="number"||typeof I=="boolean"){if(U!==I)return O[P]=I,!0}else{if(ArrayBuffer.isView(I))return!0;if(U.equals(I)===!1)return U.copy(I),!0}}return!1}function w(I){let O=I.uniforms,P=0,U=16;for(let b=0,L=O.length;b<L;b++){let q=Array.isArray(O[b])?O[b]:[O[b]];for(let k=0,Y=q.length;k<Y;k++){let J=q[k],ee=Array.isArray(J.value)?J.value:[J.value],z=Array.isArray(O[b])||Array.isArray(J.value),ie=P;for(let ne=0,Se=ee.length;ne<Se;ne++){let re=ee[ne],H=R(re,z),me=P%U,We=me%H.boundary,nt=me+We;P+=We,nt!==0&&U-nt<H.storage&&(P+=U-nt),ne===0&&(ie=P),P+=H.storage}let G=J.type==="int"?Int32Array:J.type==="uint"?Uint32Array:Float32Array;J.__data=new G((P-ie)/Float32Array.BYTES_PER_ELEMENT),J.__offset=ie}}let N=P%U;return N>0&&(P+=U-N),I.__size=P,I.__cache={},this}function R(I,O){let P={boundary:0,storage:0};return typeof I=="number"||typeof I=="boolean"?(P.boundary=4,P.storage=4):I.isVector2?(P.boundary=8,P.storage=8):I.isVector3||I.isColor?(P.boundary=16,P.storage=12):I.isVector4?(P.boundary=16,P.storage=16):I.isMatrix3?(P.boundary=16,P.storage=48):I.isMatrix4?(P.boundary=16,P.storage=64):I.isTexture?et("WebGLRenderer: Texture samplers can not be part of an uniforms group."):ArrayBuffer.isView(I)?(P.boundary=16,P.storage=I.byteLength):et("WebGLRenderer: Unsupported uniform value type.",I),O===!0&&(P.boundary=16,P.storage=Math.ceil(P.storage/16)*16),P}function x(I){let O=I.target;O.removeEventListener("dispose",x),i.deleteBuffer(s[O.id]),delete s[O.id],delete o[O.id]}function y(){for(let I in s)i.deleteBuffer(s[I]);s={},o={}}return{bind:c,update:h,dispose:y}}var EM=new Uint16Array([12469,15057,12620,14925,13266,14620,13807,14376,14323,13990,14545,13625,14713,13328,14840,12882,14931,12528,14996,12233,15039,11829,15066,11525,15080,11295,15085,10976,15082,10705,15073,10495,13880,14564,13898,14542,13977,14430,14158,14124,14393,13732,14556,13410,14702,12996,14814,12596,14891,12291,14937,11834,14957,11489,14958,11194,14943,10803,14921,10506,14893,10278,14858,9960,14484,14039,14487,14025,14499,13941,14524,13740,14574,13468,14654,13106,14743,12678,14818,12344,14867,11893,14889,11509,14893,11180,14881,10751,14852,10428,14812,10128,14765,9754,14712,9466,14764,13480,14764,13475,14766,13440,14766,13347,14769,13070,14786,12713,14816,12387,14844,11957,14860,11549,14868,11215,14855,10751,14825,10403,14782,10044,14729,9651,14666,9352,14599,9029,14967,12835,14966,12831,14963,12804,14954,12723,14936,12564,14917,12347,14900,11958,14886,11569,14878,11247,14859,10765,14828,10401,14784,10011,14727,9600,14660,9289,14586,8893,14508,8533,15111,12234,15110,12234,15104,12216,15092,12156,15067,12010,15028,11776,14981,11500,14942,11205,14902,10752,14861,10393,14812,9991,14752,9570,14682,9252,14603,8808,14519,8445,14431,8145,15209,11449,15208,11451,15202,11451,15190,11438,15163,11384,15117,11274,15055,10979,14994,10648,14932,10343,14871,9936,14803,9532,14729,9218,14645,8742,14556,8381,14461,8020,14365,7603,15273,10603,15272,10607,15267,10619,15256,10631,15231,10614,15182,10535,15118,10389,15042,10167,14963,9787,14883,9447,14800,9115,14710,8665,14615,8318,14514,7911,14411,7507,14279,7198,15314,9675,15313,9683,15309,9712,15298,9759,15277,9797,15229,9773,15166,9668,15084,9487,14995,9274,14898,8910,14800,8539,14697,8234,14590,7790,14479,7409,14367,7067,14178,6621,15337,8619,15337,8631,15333,8677,15325,8769,15305,8871,15264,8940,15202,8909,15119,8775,15022,8565,14916,8328,14804,8009,14688,7614,14569,7287,14448,6888,14321,6483,14088,6171,15350,7402,15350,7419,15347,7480,15340,7613,15322,7804,15287,7973,15229,8057,15148,8012,15046,7846,14933,7611,14810,7357,14682,7069,14552,6656,14421,6316,14251,5948,14007,5528,15356,5942,15356,5977,15353,6119,15348,6294,15332,6551,15302,6824,15249,7044,15171,7122,15070,7050,14949,6861,14818,6611,14679,6349,14538,6067,14398,5651,14189,5311,13935,4958,15359,4123,15359,4153,15356,4296,15353,4646,15338,5160,15311,5508,15263,5829,15188,6042,15088,6094,14966,6001,14826,5796,14678,5543,14527,5287,14377,4985,14133,4586,13869,4257,15360,1563,15360,1642,15358,2076,15354,2636,15341,3350,15317,4019,15273,4429,15203,4732,15105,4911,14981,4932,14836,4818,14679,4621,14517,4386,14359,4156,14083,3795,13808,3437,15360,122,15360,137,15358,285,15355,636,15344,1274,15322,2177,15281,2765,15215,3223,15120,3451,14995,3569,14846,3567,14681,3466,14511,3305,14344,3121,14037,2800,13753,2467,15360,0,15360,1,15359,21,15355,89,15346,253,15325,479,15287,796,15225,1148,15133,1492,15008,1749,14856,1882,14685,1886,14506,1783,14324,1608,13996,1398,13702,1183]),si=null;function TM(){return si===null&&(si=new Ga(EM,16,16,Ui,Vn),si.name="DFG_LUT",si.minFilter=_n,si.magFilter=_n,si.wrapS=Kn,si.wrapT=Kn,si.generateMipmaps=!1,si.needsUpdate=!0),si}var Zo=class{constructor(e={}){let{canvas:t=Vu(),context:n=null,depth:s=!0,stencil:o=!1,alpha:c=!1,antialias:h=!1,premultipliedAlpha:f=!0,preserveDrawingBuffer:d=!1,powerPreference:m="default",failIfMajorPerformanceCaveat:v=!1,reversedDepthBuffer:g=!1,outputBufferType:S=Sn}=e;this.isWebGLRenderer=!0;let w;if(n!==null){if(typeof WebGLRenderingContext<"u"&&n instanceof WebGLRenderingContext)throw new Error("THREE.WebGLRenderer: WebGL 1 is not supported since r163.");w=n.getContextAttributes().alpha}else w=c;let R=S,x=new Set([mo,po,fo]),y=new Set([Sn,zn,Br,nr,ho,uo]),I=new Uint32Array(4),O=new Int32Array(4),P={textures:[],min:[],max:[],resolution:[]},U=null,N=null,b=[],L=[],q=null;this.domElement=t,this.debug={checkShaderErrors:!0,diagnostics:{keywords:!1},onShaderError:null},this.autoClear=!0,this.autoClearColor=!0,this.autoClearDepth=!0,this.autoClearStencil=!0,this.sortObjects=!0,this.clippingPlanes=[],this.localClippingEnabled=!1,this.toneMapping=ri,this.toneMappingExposure=1,this.transmissionResolutionScale=1;let k=this,Y=!1,J=null,ee=null,z=null,ie=null;this._outputColorSpace=mn;let G=0,ne=0,Se=null,re=-1,H=null,me=new zt,We=new zt,nt=null,ue=new ut(0),Fe=0,Pe=t.width,Ye=t.height,Ue=1,rt=null,Gt=null,Qe=new zt(0,0,Pe,Ye),wt=new zt(0,0,Pe,Ye),Tt=!1,dt=new Pi,Vt=new Va,ht=!1,Rt=!1,St=new It,Qt=new Q,Le=new zt,$e={background:null,fog:null,environment:null,overrideMaterial:null,isScene:!0},an=!1;function en(){return Se===null?Ue:1}let W=n;function fn(C,V){return t.getContext(C,V)}let At,Nt,De,Xt,je,Je,D,T,j,ve,de,pe,Me,ae,le,Ce,B,he,se,Re,Ee,Ae,Xe;try{let C={alpha:!0,depth:s,stencil:o,antialias:h,premultipliedAlpha:f,preserveDrawingBuffer:d,powerPreference:m,failIfMajorPerformanceCaveat:v};if("setAttribute"in t&&t.setAttribute("data-engine",`three.js r${"187"}`),t.addEventListener("webglcontextlost",qe,!1),t.addEventListener("webglcontextrestored",lt,!1),t.addEventListener("webglcontextcreationerror",Oe,!1),W===null){let V="webgl2";if(W=fn(V,C),W===null)throw fn(V)?new Error("THREE.WebGLRenderer: Error creating WebGL context with your selected attributes."):new Error("THREE.WebGLRenderer: Error creating WebGL context.")}ot()}catch(C){throw t.removeEventListener("webglcontextlost",qe,!1),t.removeEventListener("webglcontextrestored",lt,!1),t.removeEventListener("webglcontextcreationerror",Oe,!1),tt("WebGLRenderer: "+C.message),C}function ot(){At=new Ox(W),At.init(),Ee=new yM(W,At),Nt=new Tx(W,At,e,Ee),De=new _M(W,At),Nt.reversedDepthBuffer&&g&&De.buffers.depth.setReversed(!0),ee=W.createFramebuffer(),z=W.createFramebuffer(),ie=W.createFramebuffer(),Xt=new zx(W),je=new iM,Je=new vM(W,At,De,je,Nt,Ee,Xt),D=new Ux(k),T=new V0(W),Ae=new wx(W,T),j=new Bx(W,T,Xt,Ae),ve=new Vx(W,j,T,Ae,Xt),he=new Gx(W,Nt,Je),le=new Ax(je),de=new nM(k,D,At,Nt,Ae,le),pe=new bM(k,je),Me=new sM,ae=new uM(At),B=new bx(k,D,De,ve,w,f),Ce=new gM(k,ve,Nt),Xe=new wM(W,Xt,Nt,De),se=new Ex(W,At,Xt),Re=new kx(W,At,Xt),Xt.programs=de.programs,k.capabilities=Nt,k.extensions=At,k.properties=je,k.renderLists=Me,k.shadowMap=Ce,k.state=De,k.info=Xt}R!==Sn&&(q=new Wx(R,t.width,t.height,h,s,o));let we=new Gc(k,W);this.xr=we,this.getContext=function(){return W},this.getContextAttributes=function(){return W.getContextAttributes()},this.forceContextLoss=function(){let C=At.get("WEBGL_lose_context");C&&C.loseContext()},this.forceContextRestore=function(){let C=At.get("WEBGL_lose_context");C&&C.restoreContext()},this.getPixelRatio=function(){return Ue},this.setPixelRatio=function(C){C!==void 0&&(Ue=C,this.setSize(Pe,Ye,!1))},this.getSize=function(C){return C.set(Pe,Ye)},this.setSize=function(C,V,te=!0){if(we.isPresenting){et("WebGLRenderer: Can't change size while VR device is presenting.");return}Pe=C,Ye=V,t.width=Math.floor(C*Ue),t.height=Math.floor(V*Ue),te===!0&&(t.style.width=C+"px",t.style.height=V+"px"),q!==null&&q.setSize(t.width,t.height),this.setViewport(0,0,C,V)},this.getDrawingBufferSize=function(C){return C.set(Pe*Ue,Ye*Ue).floor()},this.setDrawingBufferSize=function(C,V,te){Pe=C,Ye=V,Ue=te,t.width=Math.floor(C*te),t.height=Math.floor(V*te),this.setViewport(0,0,C,V)},this.setEffects=function(C){if(R===Sn){tt("WebGLRenderer: setEffects() requires outputBufferType set to HalfFloatType or FloatType.");return}if(C){for(let V=0;V<C.length;V++)if(C[V].isOutputPass===!0){et("WebGLRenderer: OutputPass is not needed in setEffects(). Tone mapping and color space conversion are applied automatically.");break}}q.setEffects(C||[])},this.getCurrentViewport=function(C){return C.copy(me)},this.getViewport=function(C){return C.copy(Qe)},this.setViewport=function(C,V,te,Z){C.isVector4?Qe.set(C.x,C.y,C.z,C.w):Qe.set(C,V,te,Z),De.viewport(me.copy(Qe).multiplyScalar(en()).round())},this.getScissor=function(C){return C.copy(wt)},this.setScissor=function(C,V,te,Z){C.isVector4?wt.set(C.x,C.y,C.z,C.w):wt.set(C,V,te,Z),De.scissor(We.copy(wt).multiplyScalar(en()).round())},this.getScissorTest=function(){return Tt},this.setScissorTest=function(C){De.setScissorTest(Tt=C)},this.setOpaqueSort=function(C){rt=C},this.setTransparentSort=function(C){Gt=C},this.getClearColor=function(C){return C.copy(B.getClearColor())},this.setClearColor=function(){B.setClearColor(...arguments)},this.getClearAlpha=function(){return B.getClearAlpha()},this.setClearAlpha=function(){B.setClearAlpha(...arguments)},this.clear=function(C=!0,V=!0,te=!0){let Z=0;if(C){let $=!1;if(Se!==null){let Ie=Se.texture.format;$=x.has(Ie)}if($){let Ie=Se.texture.type,ze=y.has(Ie),Te=B.getClearColor(),Ne=B.getClearAlpha(),Ge=Te.r,it=Te.g,ft=Te.b;ze?(I[0]=Ge,I[1]=it,I[2]=ft,I[3]=Ne,W.clearBufferuiv(W.COLOR,0,I)):(O[0]=Ge,O[1]=it,O[2]=ft,O[3]=Ne,W.clearBufferiv(W.COLOR,0,O))}else Z|=W.COLOR_BUFFER_BIT}V&&(Z|=W.DEPTH_BUFFER_BIT,this.state.buffers.depth.setMask(!0)),te&&(Z|=W.STENCIL_BUFFER_BIT,this.state.buffers.stencil.setMask(4294967295)),Z!==0&&W.clear(Z)},this.clearColor=function(){this.clear(!0,!1,!1)},this.clearDepth=function(){this.clear(!1,!0,!1)},this.clearStencil=function(){this.clear(!1,!1,!0)},this.setNodesHandler=function(C){C.setRenderer(this),J=C},this.dispose=function(){t.removeEventListener("webglcontextlost",qe,!1),t.removeEventListener("webglcontextrestored",lt,!1),t.removeEventListener("webglcontextcreationerror",Oe,!1),B.dispose(),Me.dispose(),ae.dispose(),Je.dispose(),je.dispose(),D.dispose(),ve.dispose(),j.dispose(),Ae.dispose(),Xe.dispose(),de.dispose(),we.dispose(),we.removeEventListener("sessionstart",Vr),we.removeEventListener("sessionend",li),on.stop()};function qe(C){C.preventDefault(),wc("WebGLRenderer: Context Lost."),Y=!0}function lt(){wc("WebGLRenderer: Context Restored."),Y=!1;let C=Xt.autoReset,V=Ce.enabled,te=Ce.autoUpdate,Z=Ce.needsUpdate,$=Ce.type;ot(),Xt.autoReset=C,Ce.enabled=V,Ce.autoUpdate=te,Ce.needsUpdate=Z,Ce.type=$}function Oe(C){tt("WebGLRenderer: A WebGL context could not be created. Reason: ",C.statusMessage)}function Et(C){let V=C.target;V.removeEventListener("dispose",Et),Ot(V)}function Ot(C){oi(C),je.remove(C)}function oi(C){let V=je.get(C).programs;V!==void 0&&(V.forEach(function(te){de.releaseProgram(te)}),C.isShaderMaterial&&de.releaseShaderCache(C))}this.renderBufferDirect=function(C,V,te,Z,$,Ie){V===null&&(V=$e);let ze=$.isMesh&&$.matrixWorld.determinantAffine()<0,Te=sl(C,V,te,Z,$);De.setMaterial(Z,ze);let Ne=te.index,Ge=1;if(Z.wireframe===!0){if(Ne=j.getWireframeAttribute(te),Ne===void 0)return;Ge=2}let it=te.drawRange,ft=te.attributes.position,Ve=it.start*Ge,st=(it.start+it.count)*Ge;Ie!==null&&(Ve=Math.max(Ve,Ie.start*Ge),st=Math.min(st,(Ie.start+Ie.count)*Ge)),Ne!==null?(Ve=Math.max(Ve,0),st=Math.min(st,Ne.count)):ft!=null&&(Ve=Math.max(Ve,0),st=Math.min(st,ft.count));let Ht=st-Ve;if(Ht<0||Ht===1/0)return;Ae.setup($,Z,Te,te,Ne);let ke,Pt=se;if(Ne!==null&&(ke=T.get(Ne),Pt=Re,Pt.setIndex(ke)),$.isMesh)Z.wireframe===!0?(De.setLineWidth(Z.wireframeLinewidth*en()),Pt.setMode(W.LINES)):Pt.setMode(W.TRIANGLES);else if($.isLine){let qt=Z.linewidth;qt===void 0&&(qt=1),De.setLineWidth(qt*en()),$.isLineSegments?Pt.setMode(W.LINES):$.isLineLoop?Pt.setMode(W.LINE_LOOP):Pt.setMode(W.LINE_STRIP)}else $.isPoints?Pt.setMode(W.POINTS):$.isSprite&&Pt.setMode(W.TRIANGLES);if($.isBatchedMesh)if(At.get("WEBGL_multi_draw"))Pt.renderMultiDraw($._multiDrawStarts,$._multiDrawCounts,$._multiDrawCount);else{let qt=$._multiDrawStarts,He=$._multiDrawCounts,tn=$._multiDrawCount,Mt=Ne?T.get(Ne).bytesPerElement:1,Xn=je.get(Z).currentProgram.getUniforms();for(let nn=0;nn<tn;nn++)Xn.setValue(W,"_gl_DrawID",nn),Pt.render(qt[nn]/Mt,He[nn])}else if($.isInstancedMesh)Pt.renderInstances(Ve,Ht,$.count);else if(te.isInstancedBufferGeometry){let qt=te._maxInstanceCount!==void 0?te._maxInstanceCount:1/0,He=Math.min(te.instanceCount,qt);Pt.renderInstances(Ve,Ht,He)}else Pt.render(Ve,Ht)};function ye(C,V,te,Z){J!==null&&C.isNodeMaterial&&J.setObject(Z,C),ht===!0&&le.setState(C,te,!1),C.transparent===!0&&C.side===ii&&C.forceSinglePass===!1?(C.side=vn,C.needsUpdate=!0,Bi(C,V,Z),C.side=Ni,C.needsUpdate=!0,Bi(C,V,Z),C.side=ii):Bi(C,V,Z)}this.compile=function(C,V,te=null){te===null&&(te=C),J!==null&&J.renderStart(C,V,te),N=ae.get(te),N.init(V),L.push(N),te.traverseVisible(function($){$.isLight&&$.layers.test(V.layers)&&(N.pushLight($),$.castShadow&&N.pushShadow($))}),C!==te&&C.traverseVisible(function($){$.isLight&&$.layers.test(V.layers)&&(N.pushLight($),$.castShadow&&N.pushShadow($))}),N.setupLights(),J!==null&&J.updateLights(N.state.lightsArray),Rt=this.localClippingEnabled,ht=le.init(this.clippingPlanes,Rt),ht===!0&&le.setGlobalState(this.clippingPlanes,V),J!==null&&Ce.render(N.state.shadowsArray,te,V);let Z=new Set;return C.traverse(function($){if(!($.isMesh||$.isPoints||$.isLine||$.isSprite))return;let Ie=$.material;if(Ie)if(Array.isArray(Ie))for(let ze=0;ze<Ie.length;ze++){let Te=Ie[ze];ye(Te,te,V,$),Z.add(Te)}else ye(Ie,te,V,$),Z.add(Ie)}),N=L.pop(),J!==null&&J.renderEnd(),Z},this.compileAsync=function(C,V,te=null){let Z=this.compile(C,V,te);return new Promise($=>{function Ie(){if(Z.forEach(function(ze){let Ne=je.get(ze).currentProgram;(Ne===void 0||Ne.isReady())&&Z.delete(ze)}),Z.size===0){$(C);return}setTimeout(Ie,10)}At.get("KHR_parallel_shader_compile")!==null?Ie():setTimeout(Ie,10)})};let ge=null;function Wn(C){ge&&ge(C)}function Vr(){on.stop()}function li(){on.start()}let on=new yd;on.setAnimationLoop(Wn),typeof self<"u"&&on.setContext(self),this.setAnimationLoop=function(C){ge=C,we.setAnimationLoop(C),C===null?on.stop():on.start()},we.addEventListener("sessionstart",Vr),we.addEventListener("sessionend",li),this.render=function(C,V){if(V!==void 0&&V.isCamera!==!0){tt("WebGLRenderer.render: camera is not an instance of THREE.Camera.");return}if(Y===!0)return;J!==null&&J.renderStart(C,V);let te=we.enabled===!0&&we.isPresenting===!0,Z=q!==null&&(Se===null||te)&&q.begin(k,Se);if(C.matrixWorldAutoUpdate===!0&&C.updateMatrixWorld(),V.parent===null&&V.matrixWorldAutoUpdate===!0&&V.updateMatrixWorld(),we.enabled===!0&&we.isPresenting===!0&&(q===null||q.isCompositing()===!1)&&(we.cameraAutoUpdate===!0&&we.updateCamera(V),V=we.getCamera()),C.isScene===!0&&C.onBeforeRender(k,C,V,Se),N=ae.get(C,L.length),N.init(V),N.state.textureUnits=Je.getTextureUnits(),L.push(N),St.multiplyMatrices(V.projectionMatrix,V.matrixWorldInverse),V.isArrayCamera?Vt.setFromArrayCamera(V):dt.setFromProjectionMatrix(St,In,V.reversedDepth),Rt=this.localClippingEnabled,ht=le.init(this.clippingPlanes,Rt),U=Me.get(C,b.length),U.init(),b.push(U),this.info.render.frame++,we.enabled===!0&&we.isPresenting===!0){let ze=k.xr.getDepthSensingMesh();ze!==null&&Hr(ze,V,-1/0,k.sortObjects)}Hr(C,V,0,k.sortObjects),U.finish(),J!==null&&J.updateLights(N.state.lightsArray),k.sortObjects===!0&&U.sort(rt,Gt),an=we.enabled===!1||we.isPresenting===!1||we.hasDepthSensing()===!1,an&&B.addToRenderList(U,C),this.info.autoReset===!0&&this.info.reset(),ht===!0&&le.beginShadows();let $=N.state.shadowsArray;if(Ce.render($,C,V),ht===!0&&le.endShadows(),(Z&&q.hasRenderPass())===!1){let ze=U.opaque,Te=U.transmissive;if(N.setupLights(),V.isArrayCamera){let Ne=V.cameras;if(Te.length>0)for(let Ge=0,it=Ne.length;Ge<it;Ge++){let ft=Ne[Ge];Oi(ze,Te,C,ft)}an&&B.render(C);for(let Ge=0,it=Ne.length;Ge<it;Ge++){let ft=Ne[Ge];An(U,C,ft,ft.viewport)}}else Te.length>0&&Oi(ze,Te,C,V),an&&B.render(C),An(U,C,V)}Se!==null&&ne===0&&(Je.updateMultisampleRenderTarget(Se),Je.updateRenderTargetMipmap(Se)),Z&&q.end(k),C.isScene===!0&&C.onAfterRender(k,C,V),Ae.resetDefaultState(),re=-1,H=null,L.pop(),L.length>0?(N=L[L.length-1],Je.setTextureUnits(N.state.textureUnits),ht===!0&&le.setGlobalState(k.clippingPlanes,N.state.camera)):N=null,b.pop(),b.length>0?U=b[b.length-1]:U=null,J!==null&&J.renderEnd()};function Hr(C,V,te,Z){if(C.visible===!1)return;if(C.layers.test(V.layers)){if(C.isGroup)te=C.renderOrder;else if(C.isLOD)C.autoUpdate===!0&&C.update(V);else if(C.isLight)N.pushLight(C),C.castShadow&&N.pushShadow(C);else if(C.isSprite){let ze=V.isArrayCamera?Vt:dt;if(!C.frustumCulled||C.intersectsFrustum(ze)){Z&&Le.setFromMatrixPosition(C.matrixWorld).applyMatrix4(St);let Te=ve.update(C),Ne=C.material;Ne.visible&&U.push(C,Te,Ne,te,Le.z,null,V)}}else if(C.isMesh||C.isLine||C.isPoints){let ze=V.isArrayCamera?Vt:dt;if(!C.frustumCulled||C.intersectsFrustum(ze)){let Te=ve.update(C),Ne=C.material;if(Z&&(C.boundingSphere!==void 0?(C.boundingSphere===null&&C.computeBoundingSphere(),Le.copy(C.boundingSphere.center)):(Te.boundingSphere===null&&Te.computeBoundingSphere(),Le.copy(Te.boundingSphere.center)),Le.applyMatrix4(C.matrixWorld).applyMatrix4(St)),Array.isArray(Ne)){let Ge=Te.groups;for(let it=0,ft=Ge.length;it<ft;it++){let Ve=Ge[it],st=Ne[Ve.materialIndex];st&&st.visible&&U.push(C,Te,st,te,Le.z,Ve,V)}}else Ne.visible&&U.push(C,Te,Ne,te,Le.z,null,V)}}}let Ie=C.children;for(let ze=0,Te=Ie.length;ze<Te;ze++)Hr(Ie[ze],V,te,Z)}function An(C,V,te,Z){let{opaque:$,transmissive:Ie,transparent:ze}=C;N.setupLightsView(te),ht===!0&&le.setGlobalState(k.clippingPlanes,te),Z&&De.viewport(me.copy(Z)),$.length>0&&sr($,V,te),Ie.length>0&&sr(Ie,V,te),ze.length>0&&sr(ze,V,te),De.buffers.depth.setTest(!0),De.buffers.depth.setMask(!0),De.buffers.color.setMask(!0),De.setPolygonOffset(!1)}function Oi(C,V,te,Z){if((te.isScene===!0?te.overrideMaterial:null)!==null)return;if(N.state.transmissionRenderTarget[Z.id]===void 0){let Ve=At.has("EXT_color_buffer_half_float")||At.has("EXT_color_buffer_float");N.state.transmissionRenderTarget[Z.id]=new En(1,1,{generateMipmaps:!0,type:Ve?Vn:Sn,minFilter:yi,samples:Math.max(4,Nt.samples),stencilBuffer:o,resolveDepthBuffer:!1,resolveStencilBuffer:!1,storeMultisampledDepthBuffer:!1,storeMultisampledStencilBuffer:!1,colorSpace:yt.workingColorSpace})}let Ie=N.state.transmissionRenderTarget[Z.id],ze=Z.viewport||me;Ie.setSize(ze.z*k.transmissionResolutionScale,ze.w*k.transmissionResolutionScale);let Te=k.getRenderTarget(),Ne=k.getActiveCubeFace(),Ge=k.getActiveMipmapLevel();k.setRenderTarget(Ie),k.getClearColor(ue),Fe=k.getClearAlpha(),Fe<1&&k.setClearColor(16777215,.5),k.clear(),an&&B.render(te);let it=k.toneMapping;k.toneMapping=ri;let ft=Z.viewport;if(Z.viewport!==void 0&&(Z.viewport=void 0),N.setupLightsView(Z),ht===!0&&le.setGlobalState(k.clippingPlanes,Z),sr(C,te,Z),Je.updateMultisampleRenderTarget(Ie),Je.updateRenderTargetMipmap(Ie),At.has("WEBGL_multisampled_render_to_texture")===!1){let Ve=!1;for(let st=0,Ht=V.length;st<Ht;st++){let ke=V[st],{object:Pt,geometry:qt,material:He,group:tn}=ke;if(He.side===ii&&Pt.layers.test(Z.layers)){let Mt=He.side;He.side=vn,He.needsUpdate=!0,Bs(Pt,te,Z,qt,He,tn),He.side=Mt,He.needsUpdate=!0,Ve=!0}}Ve===!0&&(Je.updateMultisampleRenderTarget(Ie),Je.updateRenderTargetMipmap(Ie))}k.setRenderTarget(Te,Ne,Ge),k.setClearColor(ue,Fe),ft!==void 0&&(Z.viewport=ft),k.toneMapping=it}function sr(C,V,te){let Z=V.isScene===!0?V.overrideMaterial:null;for(let $=0,Ie=C.length;$<Ie;$++){let ze=C[$],{object:Te,geometry:Ne,group:Ge}=ze,it=ze.material;it.allowOverride===!0&&Z!==null&&(it=Z),Te.layers.test(te.layers)&&Bs(Te,V,te,Ne,it,Ge)}}function Bs(C,V,te,Z,$,Ie){J!==null&&$.isNodeMaterial&&J.setObject(C,$),C.onBeforeRender(k,V,te,Z,$,Ie),C.modelViewMatrix.multiplyMatrices(te.matrixWorldInverse,C.matrixWorld),C.normalMatrix.getNormalMatrix(C.modelViewMatrix),$.onBeforeRender(k,V,te,Z,C,Ie),$.transparent===!0&&$.side===ii&&$.forceSinglePass===!1?($.side=vn,$.needsUpdate=!0,k.renderBufferDirect(te,V,Z,$,C,Ie),$.side=Ni,$.needsUpdate=!0,k.renderBufferDirect(te,V,Z,$,C,Ie),$.side=ii):k.renderBufferDirect(te,V,Z,$,C,Ie),C.onAfterRender(k,V,te,Z,$,Ie)}function Cn(C){let V=0;for(let te of C)te.texture!==null&&V++;return V}function Bi(C,V,te){V.isScene!==!0&&(V=$e);let Z=je.get(C),$=N.state.lights,Ie=N.state.shadowsArray,ze=$.state.version,Te=de.getParameters(C,$.state,Ie,V,te,N.state.lightProbeGridArray),Ne=de.getProgramCacheKey(Te),Ge=Z.programs;Z.environment=C.isMeshStandardMaterial||C.isMeshLambertMaterial||C.isMeshPhongMaterial?V.environment:null,Z.fog=V.fog;let it=C.isMeshStandardMaterial||C.isMeshLambertMaterial&&!C.envMap||C.isMeshPhongMaterial&&!C.envMap;Z.envMap=D.get(C.envMap||Z.environment,it),Z.envMapRotation=Z.environment!==null&&C.envMap===null?V.environmentRotation:C.envMapRotation,Ge===void 0&&(C.addEventListener("dispose",Et),Ge=new Map,Z.programs=Ge,Z.programVariants=new Map);let ft=Ge.get(Ne);if(ft!==void 0){if(Z.currentProgram===ft&&Z.lightsStateVersion===ze)return or(C,Te),ft}else Te.uniforms=de.getUniforms(C),J!==null&&C.isNodeMaterial&&J.build(C,te,Te),C.onBeforeCompile(Te,k),ft=de.acquireProgram(Te,Ne),Ge.set(Ne,ft),Z.uniforms=Te.uniforms;let Ve=Z.uniforms;return(!C.isShaderMaterial&&!C.isRawShaderMaterial||C.clipping===!0)&&(Ve.clippingPlanes=le.uniform),or(C,Te),Z.needsLights=ol(C),Z.lightsStateVersion=ze,Z.needsLights&&(Ve.ambientLightColor.value=$.state.ambient,Ve.lightProbe.value=$.state.probe,Ve.sunLights.value=$.state.sun,Ve.sunLightShadows.value=$.state.sunShadow,Ve.directionalLights.value=$.state.directional,Ve.directionalLightShadows.value=$.state.directionalShadow,Ve.spotLights.value=$.state.spot,Ve.spotLightShadows.value=$.state.spotShadow,Ve.rectAreaLights.value=$.state.rectArea,Ve.ltc_1.value=$.state.rectAreaLTC1,Ve.ltc_2.value=$.state.rectAreaLTC2,Ve.pointLights.value=$.state.point,Ve.pointLightShadows.value=$.state.pointShadow,Ve.hemisphereLights.value=$.state.hemi,Ve.sunShadowMatrix.value=$.state.sunShadowMatrix,Ve.sunShadowCascade.value=$.state.sunShadowCascade,Ve.directionalShadowMatrix.value=$.state.directionalShadowMatrix,Ve.spotLightMatrix.value=$.state.spotLightMatrix,Ve.spotLightMap.value=$.state.spotLightMap,Ve.pointShadowMatrix.value=$.state.pointShadowMatrix),Z.numLightProbeGrids=Cn(N.state.lightProbeGridArray),Z.currentProgram=ft,Z.uniformsList=null,ft}function ar(C,V,te,Z,$){let Ie=je.get(C),ze=Ie.currentProgram.id+","+Z+","+$,Te=Ie.programVariants.get(ze);return Te===void 0?(Te=Bi(C,V,te),Ie.programVariants.set(ze,Te)):(Ie.currentProgram=Te,Ie.uniformsList=null,Ie.outputColorSpace=Z,Ie.toneMapping=$),Te}function ki(C){if(C.uniformsList===null){let V=C.currentProgram.getUniforms();C.uniformsList=zr.seqWithValue(V.seq,C.uniforms)}return C.uniformsList}function or(C,V){let te=je.get(C);te.outputColorSpace=V.outputColorSpace,te.batching=V.batching,te.batchingColor=V.batchingColor,te.instancing=V.instancing,te.instancingColor=V.instancingColor,te.instancingMorph=V.instancingMorph,te.skinning=V.skinning,te.morphTargets=V.morphTargets,te.morphNormals=V.morphNormals,te.morphColors=V.morphColors,te.morphTargetsCount=V.morphTargetsCount,te.numClippingPlanes=V.numClippingPlanes,te.numIntersection=V.numClipIntersection,te.vertexAlphas=V.vertexAlphas,te.vertexTangents=V.vertexTangents,te.toneMapping=V.toneMapping}function sl(C,V,te,Z,$){V.isScene!==!0&&(V=$e),Je.resetTextureUnits();let Ie=V.fog,ze=Z.isMeshStandardMaterial||Z.isMeshLambertMaterial||Z.isMeshPhongMaterial?V.environment:null,Te=Se===null?k.outputColorSpace:Se.isXRRenderTarget===!0?Se.texture.colorSpace:yt.workingColorSpace,Ne=Z.isMeshStandardMaterial||Z.isMeshLambertMaterial&&!Z.envMap||Z.isMeshPhongMaterial&&!Z.envMap,Ge=D.get(Z.envMap||ze,Ne),it=Z.vertexColors===!0&&!!te.attributes.color&&te.attributes.color.itemSize===4,ft=!!te.attributes.tangent&&(!!Z.normalMap||Z.anisotropy>0),Ve=!!te.morphAttributes.position,st=!!te.morphAttributes.normal,Ht=!!te.morphAttributes.color,ke=ri;Z.toneMapped&&(Se===null||Se.isXRRenderTarget===!0)&&(ke=k.toneMapping);let Pt=te.morphAttributes.position||te.morphAttributes.normal||te.morphAttributes.color,qt=Pt!==void 0?Pt.length:0,He=je.get(Z),tn=N.state.lights;if(ht===!0&&(Rt===!0||C!==H)){let Dt=C===H&&Z.id===re;le.setState(Z,C,Dt)}let Mt=!1,Xn=!1;Z.version===He.__version?He.needsLights&&He.lightsStateVersion!==tn.state.version||$.isBatchedMesh&&He.batching===!1||!$.isBatchedMesh&&He.batching===!0||$.isBatchedMesh&&He.batchingColor===!0&&$._colorsTexture===null||$.isBatchedMesh&&He.batchingColor===!1&&$._colorsTexture!==null||$.isInstancedMesh&&He.instancing===!1||!$.isInstancedMesh&&He.instancing===!0||$.isSkinnedMesh&&He.skinning===!1||!$.isSkinnedMesh&&He.skinning===!0||$.isInstancedMesh&&He.instancingColor===!0&&$.instanceColor===null||$.isInstancedMesh&&He.instancingColor===!1&&$.instanceColor!==null||$.isInstancedMesh&&He.instancingMorph===!0&&$.morphTexture===null||$.isInstancedMesh&&He.instancingMorph===!1&&$.morphTexture!==null||He.envMap!==Ge||Z.fog===!0&&He.fog!==Ie||He.numClippingPlanes!==void 0&&(He.numClippingPlanes!==le.numPlanes||He.numIntersection!==le.numIntersection)||He.vertexAlphas!==it||He.vertexTangents!==ft||He.morphTargets!==Ve||He.morphNormals!==st||He.morphColors!==Ht||He.morphTargetsCount!==qt||He.numLightProbeGrids!==Cn(N.state.lightProbeGridArray)?Mt=!0:(He.outputColorSpace!==Te||He.toneMapping!==ke)&&(Xn=!0):(Mt=!0,He.__version=Z.version);let nn=He.currentProgram;(Mt===!0||Xn===!0)&&(nn=Xn===!0?ar(Z,V,$,Te,ke):Bi(Z,V,$),J&&Z.isNodeMaterial&&J.onUpdateProgram(Z,nn,He));let Mi=!1,$n=!1,qn=!1,M=nn.getUniforms(),ct=He.uniforms;if(De.useProgram(nn.program)&&(Mi=!0,$n=!0,qn=!0),Z.id!==re&&(re=Z.id,$n=!0),Mi||H!==C){De.buffers.depth.getReversed()&&C.reversedDepth!==!0&&(C._reversedDepth=!0,C.updateProjectionMatrix()),M.setValue(W,"projectionMatrix",C.projectionMatrix),M.setValue(W,"viewMatrix",C.matrixWorldInverse);let Bt=M.map.cameraPosition;Bt!==void 0&&Bt.setValue(W,Qt.setFromMatrixPosition(C.matrixWorld)),Nt.logarithmicDepthBuffer&&M.setValue(W,"logDepthBufFC",2/(Math.log(C.far+1)/Math.LN2)),(Z.isMeshPhongMaterial||Z.isMeshToonMaterial||Z.isMeshLambertMaterial||Z.isMeshBasicMaterial||Z.isMeshStandardMaterial||Z.isShaderMaterial)&&M.setValue(W,"isOrthographic",C.isOrthographicCamera===!0),H!==C&&(H=C,$n=!0,qn=!0)}if(He.needsLights&&(tn.state.sunShadowMap.length>0&&M.setValue(W,"sunShadowMap",tn.state.sunShadowMap,Je),tn.state.directionalShadowMap.length>0&&M.setValue(W,"directionalShadowMap",tn.state.directionalShadowMap,Je),tn.state.spotShadowMap.length>0&&M.setValue(W,"spotShadowMap",tn.state.spotShadowMap,Je),tn.state.pointShadowMap.length>0&&M.setValue(W,"pointShadowMap",tn.state.pointShadowMap,Je)),$.isSkinnedMesh){M.setOptional(W,$,"bindMatrix"),M.setOptional(W,$,"bindMatrixInverse");let Dt=$.skeleton;Dt&&(Dt.boneTexture===null&&Dt.computeBoneTexture(),M.setValue(W,"boneTexture",Dt.boneTexture,Je))}$.isBatchedMesh&&(M.setOptional(W,$,"batchingTexture"),M.setValue(W,"batchingTexture",$._matricesTexture,Je),M.setOptional(W,$,"batchingIdTexture"),M.setValue(W,"batchingIdTexture",$._indirectTexture,Je),M.setOptional(W,$,"batchingColorTexture"),$._colorsTexture!==null&&M.setValue(W,"batchingColorTexture",$._colorsTexture,Je));let Mn=te.morphAttributes;if((Mn.position!==void 0||Mn.normal!==void 0||Mn.color!==void 0)&&he.update($,te,nn),($n||He.receiveShadow!==$.receiveShadow)&&(He.receiveShadow=$.receiveShadow,M.setValue(W,"receiveShadow",$.receiveShadow)),(Z.isMeshStandardMaterial||Z.isMeshLambertMaterial||Z.isMeshPhongMaterial)&&Z.envMap===null&&V.environment!==null&&(ct.envMapIntensity.value=V.environmentIntensity),ct.dfgLUT!==void 0&&(ct.dfgLUT.value=TM()),$n){if(M.setValue(W,"toneMappingExposure",k.toneMappingExposure),He.needsLights&&al(ct,qn),Ie&&Z.fog===!0&&pe.refreshFogUniforms(ct,Ie),pe.refreshMaterialUniforms(ct,Z,Ue,Ye,N.state.transmissionRenderTarget[C.id]),He.needsLights&&He.numLightProbeGrids>0){let Dt=P,Bt=0;for(let Dn of N.state.lightProbeGridArray)Dn.texture!==null&&(Dt.textures[Bt]=Dn.texture,Dt.min[Bt]=Dn.boundingBox.min,Dt.max[Bt]=Dn.boundingBox.max,Dt.resolution[Bt]=Dn.resolution,Bt++);for(let Dn in Dt)Dt[Dn].length=Bt;ct.probesSH.value=Dt.textures,ct.probesMin.value=Dt.min,ct.probesMax.value=Dt.max,ct.probesResolution.value=Dt.resolution}zr.upload(W,ki(He),ct,Je)}if(Z.isShaderMaterial&&Z.uniformsNeedUpdate===!0&&(zr.upload(W,ki(He),ct,Je),Z.uniformsNeedUpdate=!1),Z.isSpriteMaterial&&M.setValue(W,"center",$.center),M.setValue(W,"modelViewMatrix",$.modelViewMatrix),M.setValue(W,"normalMatrix",$.normalMatrix),M.setValue(W,"modelMatrix",$.matrixWorld),Z.uniformsGroups!==void 0){let Dt=Z.uniformsGroups;for(let Bt=0,Dn=Dt.length;Bt<Dn;Bt++){let ks=Dt[Bt];Xe.update(ks,nn),Xe.bind(ks,nn)}}return nn}function al(C,V){C.ambientLightColor.needsUpdate=V,C.lightProbe.needsUpdate=V,C.sunLights.needsUpdate=V,C.sunLightShadows.needsUpdate=V,C.directionalLights.needsUpdate=V,C.directionalLightShadows.needsUpdate=V,C.pointLights.needsUpdate=V,C.pointLightShadows.needsUpdate=V,C.spotLights.needsUpdate=V,C.spotLightShadows.needsUpdate=V,C.rectAreaLights.needsUpdate=V,C.hemisphereLights.needsUpdate=V}function ol(C){return C.isMeshLambertMaterial||C.isMeshToonMaterial||C.isMeshPhongMaterial||C.isMeshStandardMaterial||C.isShadowMaterial||C.isShaderMaterial&&C.lights===!0}this.getActiveCubeFace=function(){return G},this.getActiveMipmapLevel=function(){return ne},this.getRenderTarget=function(){return Se},this.setRenderTargetTextures=function(C,V,te){let Z=je.get(C);Z.__autoAllocateDepthBuffer=C.resolveDepthBuffer===!1,Z.__autoAllocateDepthBuffer===!1&&(Z.__useRenderToTexture=!1),je.get(C.texture).__webglTexture=V,je.get(C.depthTexture).__webglTexture=Z.__autoAllocateDepthBuffer?void 0:te,Z.__hasExternalTextures=!0},this.setRenderTargetFramebuffer=function(C,V){let te=je.get(C);te.__webglFramebuffer=V,te.__useDefaultFramebuffer=V===void 0},this.setRenderTarget=function(C,V=0,te=0){Se=C,G=V,ne=te;let Z=null,$=!1,Ie=!1;if(C){let Te=je.get(C);if(Te.__useDefaultFramebuffer!==void 0){De.bindFramebuffer(W.FRAMEBUFFER,Te.__webglFramebuffer),me.copy(C.viewport),We.copy(C.scissor),nt=C.scissorTest,De.viewport(me),De.scissor(We),De.setScissorTest(nt),re=-1;return}else if(Te.__webglFramebuffer===void 0)Je.setupRenderTarget(C);else if(Te.__hasExternalTextures)Je.rebindTextures(C,je.get(C.texture).__webglTexture,je.get(C.depthTexture).__webglTexture);else if(C.depthBuffer){let it=C.depthTexture;if(Te.__boundDepthTexture!==it){if(it!==null&&je.has(it)&&(C.width!==it.image.width||C.height!==it.image.height))throw new Error("THREE.WebGLRenderer: Attached DepthTexture is initialized to the incorrect size.");Je.setupDepthRenderbuffer(C)}}let Ne=C.texture;(Ne.isData3DTexture||Ne.isDataArrayTexture||Ne.isCompressedArrayTexture)&&(Ie=!0);let Ge=je.get(C).__webglFramebuffer;C.isWebGLCubeRenderTarget?(Array.isArray(Ge[V])?Z=Ge[V][te]:Z=Ge[V],$=!0):C.samples>0&&Je.useMultisampledRTT(C)===!1?Z=je.get(C).__webglMultisampledFramebuffer:Array.isArray(Ge)?Z=Ge[te]:Z=Ge,me.copy(C.viewport),We.copy(C.scissor),nt=C.scissorTest}else me.copy(Qe).multiplyScalar(Ue).floor(),We.copy(wt).multiplyScalar(Ue).floor(),nt=Tt;if(te!==0&&(Z=ee),De.bindFramebuffer(W.FRAMEBUFFER,Z)&&De.drawBuffers(C,Z),De.viewport(me),De.scissor(We),De.setScissorTest(nt),$){let Te=je.get(C.texture);W.framebufferTexture2D(W.FRAMEBUFFER,W.COLOR_ATTACHMENT0,W.TEXTURE_CUBE_MAP_POSITIVE_X+V,Te.__webglTexture,te)}else if(Ie){let Te=V;for(let Ne=0;Ne<C.textures.length;Ne++){let Ge=je.get(C.textures[Ne]);W.framebufferTextureLayer(W.FRAMEBUFFER,W.COLOR_ATTACHMENT0+Ne,Ge.__webglTexture,te,Te)}}else if(C!==null&&te!==0){let Te=je.get(C.texture);W.framebufferTexture2D(W.FRAMEBUFFER,W.COLOR_ATTACHMENT0,W.TEXTURE_2D,Te.__webglTexture,te)}re=-1};function Wr(C){let V=je.get(C);return(V.__readFormat!==C.format||V.__readType!==C.type)&&(V.__readFormat=C.format,V.__readType=C.type,V.__formatReadable=Nt.textureFormatReadable(C.format),V.__typeReadable=Nt.textureTypeReadable(C.type)),V}this.readRenderTargetPixels=function(C,V,te,Z,$,Ie,ze,Te=0){if(!(C&&C.isWebGLRenderTarget)){tt("WebGLRenderer.readRenderTargetPixels: renderTarget is not THREE.WebGLRenderTarget.");return}let Ne=je.get(C).__webglFramebuffer;if(C.isWebGLCubeRenderTarget&&ze!==void 0&&(Ne=Ne[ze],Array.isArray(Ne)&&(Ne=Ne[0])),Ne){De.bindFramebuffer(W.FRAMEBUFFER,Ne);try{let Ge=C.textures[Te],it=Ge.format,ft=Ge.type;C.textures.length>1&&W.readBuffer(W.COLOR_ATTACHMENT0+Te);let Ve=Wr(Ge);if(Ve.__formatReadable===!1){tt("WebGLRenderer.readRenderTargetPixels: renderTarget is not in RGBA or implementation defined format.");return}if(Ve.__typeReadable===!1){tt("WebGLRenderer.readRenderTargetPixels: renderTarget is not in UnsignedByteType or implementation defined type.");return}V>=0&&V<=C.width-Z&&te>=0&&te<=C.height-$&&W.readPixels(V,te,Z,$,Ee.convert(it),Ee.convert(ft),Ie)}finally{let Ge=Se!==null?je.get(Se).__webglFramebuffer:null;De.bindFramebuffer(W.FRAMEBUFFER,Ge)}}},this.readRenderTargetPixelsAsync=async function(C,V,te,Z,$,Ie,ze,Te=0){if(!(C&&C.isWebGLRenderTarget))throw new Error("THREE.WebGLRenderer.readRenderTargetPixels: renderTarget is not THREE.WebGLRenderTarget.");let Ne=je.get(C).__webglFramebuffer;if(C.isWebGLCubeRenderTarget&&ze!==void 0&&(Ne=Ne[ze],Array.isArray(Ne)&&(Ne=Ne[0])),Ne)if(V>=0&&V<=C.width-Z&&te>=0&&te<=C.height-$){De.bindFramebuffer(W.FRAMEBUFFER,Ne);let Ge=C.textures[Te],it=Ge.format,ft=Ge.type;C.textures.length>1&&W.readBuffer(W.COLOR_ATTACHMENT0+Te);let Ve=Wr(Ge);if(Ve.__formatReadable===!1)throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: renderTarget is not in RGBA or implementation defined format.");if(Ve.__typeReadable===!1)throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: renderTarget is not in UnsignedByteType or implementation defined type.");let st=W.createBuffer();W.bindBuffer(W.PIXEL_PACK_BUFFER,st),W.bufferData(W.PIXEL_PACK_BUFFER,Ie.byteLength,W.STREAM_READ),W.readPixels(V,te,Z,$,Ee.convert(it),Ee.convert(ft),0),W.bindBuffer(W.PIXEL_PACK_BUFFER,null);let Ht=Se!==null?je.get(Se).__webglFramebuffer:null;De.bindFramebuffer(W.FRAMEBUFFER,Ht);let ke=W.fenceSync(W.SYNC_GPU_COMMANDS_COMPLETE,0);return W.flush(),await Wu(W,ke,4),W.bindBuffer(W.PIXEL_PACK_BUFFER,st),W.getBufferSubData(W.PIXEL_PACK_BUFFER,0,Ie),W.bindBuffer(W.PIXEL_PACK_BUFFER,null),W.deleteBuffer(st),W.deleteSync(ke),Ie}else throw new Error("THREE.WebGLRenderer.readRenderTargetPixelsAsync: requested read bounds are out of range.")},this.copyFramebufferToTexture=function(C,V=null,te=0){let Z=Math.pow(2,-te),$=Math.floor(C.image.width*Z),Ie=Math.floor(C.image.height*Z),ze=V!==null?V.x:0,Te=V!==null?V.y:0;Je.setTexture2D(C,0),W.copyTexSubImage2D(W.TEXTURE_2D,te,0,0,ze,Te,$,Ie),De.unbindTexture()},this.copyTextureToTexture=function(C,V,te=null,Z=null,$=0,Ie=0){let ze,Te,Ne,Ge,it,ft,Ve,st,Ht,ke=C.isCompressedTexture?C.mipmaps[Ie]:C.image;if(te!==null)ze=te.max.x-te.min.x,Te=te.max.y-te.min.y,Ne=te.isBox3?te.max.z-te.min.z:1,Ge=te.min.x,it=te.min.y,ft=te.isBox3?te.min.z:0;else{let M=Math.pow(2,-$);ze=Math.floor(ke.width*M),Te=Math.floor(ke.height*M),C.isDataArrayTexture?Ne=ke.depth:C.isData3DTexture?Ne=Math.floor(ke.depth*M):Ne=1,Ge=0,it=0,ft=0}Z!==null?(Ve=Z.x,st=Z.y,Ht=Z.z):(Ve=0,st=0,Ht=0);let Pt=Ee.convert(V.format),qt=Ee.convert(V.type),He;V.isData3DTexture?(Je.setTexture3D(V,0),He=W.TEXTURE_3D):V.isDataArrayTexture||V.isCompressedArrayTexture?(Je.setTexture2DArray(V,0),He=W.TEXTURE_2D_ARRAY):(Je.setTexture2D(V,0),He=W.TEXTURE_2D),De.activeTexture(W.TEXTURE0),De.pixelStorei(W.UNPACK_FLIP_Y_WEBGL,V.flipY),De.pixelStorei(W.UNPACK_PREMULTIPLY_ALPHA_WEBGL,V.premultiplyAlpha),De.pixelStorei(W.UNPACK_ALIGNMENT,V.unpackAlignment);let tn=De.getParameter(W.UNPACK_ROW_LENGTH),Mt=De.getParameter(W.UNPACK_IMAGE_HEIGHT),Xn=De.getParameter(W.UNPACK_SKIP_PIXELS),nn=De.getParameter(W.UNPACK_SKIP_ROWS),Mi=De.getParameter(W.UNPACK_SKIP_IMAGES);De.pixelStorei(W.UNPACK_ROW_LENGTH,ke.width),De.pixelStorei(W.UNPACK_IMAGE_HEIGHT,ke.height),De.pixelStorei(W.UNPACK_SKIP_PIXELS,Ge),De.pixelStorei(W.UNPACK_SKIP_ROWS,it),De.pixelStorei(W.UNPACK_SKIP_IMAGES,ft);let $n=C.isDataArrayTexture||C.isData3DTexture,qn=V.isDataArrayTexture||V.isData3DTexture;if(C.isDepthTexture){let M=je.get(C),ct=je.get(V),Mn=je.get(M.__renderTarget),Dt=je.get(ct.__renderTarget);De.bindFramebuffer(W.READ_FRAMEBUFFER,Mn.__webglFramebuffer),De.bindFramebuffer(W.DRAW_FRAMEBUFFER,Dt.__webglFramebuffer);for(let Bt=0;Bt<Ne;Bt++)$n&&(W.framebufferTextureLayer(W.READ_FRAMEBUFFER,W.COLOR_ATTACHMENT0,je.get(C).__webglTexture,$,ft+Bt),W.framebufferTextureLayer(W.DRAW_FRAMEBUFFER,W.COLOR_ATTACHMENT0,je.get(V).__webglTexture,Ie,Ht+Bt)),W.blitFramebuffer(Ge,it,Ge+ze,it+Te,Ve,st,Ve+ze,st+Te,W.DEPTH_BUFFER_BIT,W.NEAREST);De.bindFramebuffer(W.READ_FRAMEBUFFER,null),De.bindFramebuffer(W.DRAW_FRAMEBUFFER,null)}else if($!==0||C.isRenderTargetTexture||je.has(C)){let M=je.get(C),ct=je.get(V);De.bindFramebuffer(W.READ_FRAMEBUFFER,z),De.bindFramebuffer(W.DRAW_FRAMEBUFFER,ie);for(let Mn=0;Mn<Ne;Mn++)$n?W.framebufferTextureLayer(W.READ_FRAMEBUFFER,W.COLOR_ATTACHMENT0,M.__webglTexture,$,ft+Mn):W.framebufferTexture2D(W.READ_FRAMEBUFFER,W.COLOR_ATTACHMENT0,W.TEXTURE_2D,M.__webglTexture,$),qn?W.framebufferTextureLayer(W.DRAW_FRAMEBUFFER,W.COLOR_ATTACHMENT0,ct.__webglTexture,Ie,Ht+Mn):W.framebufferTexture2D(W.DRAW_FRAMEBUFFER,W.COLOR_ATTACHMENT0,W.TEXTURE_2D,ct.__webglTexture,Ie),$!==0?W.blitFramebuffer(Ge,it,Ge+ze,it+Te,Ve,st,Ve+ze,st+Te,W.COLOR_BUFFER_BIT,W.NEAREST):qn?W.copyTexSubImage3D(He,Ie,Ve,st,Ht+Mn,Ge,it,ze,Te):W.copyTexSubImage2D(He,Ie,Ve,st,Ge,it,ze,Te);De.bindFramebuffer(W.READ_FRAMEBUFFER,null),De.bindFramebuffer(W.DRAW_FRAMEBUFFER,null)}else qn?C.isDataTexture||C.isData3DTexture?W.texSubImage3D(He,Ie,Ve,st,Ht,ze,Te,Ne,Pt,qt,ke.data):V.isCompressedArrayTexture?W.compressedTexSubImage3D(He,Ie,Ve,st,Ht,ze,Te,Ne,Pt,ke.data):W.texSubImage3D(He,Ie,Ve,st,Ht,ze,Te,Ne,Pt,qt,ke):C.isDataTexture?W.texSubImage2D(W.TEXTURE_2D,Ie,Ve,st,ze,Te,Pt,qt,ke.data):C.isCompressedTexture?W.compressedTexSubImage2D(W.TEXTURE_2D,Ie,Ve,st,ke.width,ke.height,Pt,ke.data):W.texSubImage2D(W.TEXTURE_2D,Ie,Ve,st,ze,Te,Pt,qt,ke);De.pixelStorei(W.UNPACK_ROW_LENGTH,tn),De.pixelStorei(W.UNPACK_IMAGE_HEIGHT,Mt),De.pixelStorei(W.UNPACK_SKIP_PIXELS,Xn),De.pixelStorei(W.UNPACK_SKIP_ROWS,nn),De.pixelStorei(W.UNPACK_SKIP_IMAGES,Mi),Ie===0&&V.generateMipmaps===!0&&V.mipmapsAutoUpdate===!0&&W.generateMipmap(He),De.unbindTexture()},this.initRenderTarget=function(C){je.get(C).__webglFramebuffer===void 0&&Je.setupRenderTarget(C)},this.initTexture=function(C){C.isCubeTexture?Je.setTextureCube(C,0):C.isData3DTexture?Je.setTexture3D(C,0):C.isDataArrayTexture||C.isCompressedArrayTexture?Je.setTexture2DArray(C,0):Je.setTexture2D(C,0),De.unbindTexture()},this.resetState=function(){G=0,ne=0,Se=null,De.reset(),Ae.reset()},typeof __THREE_DEVTOOLS__<"u"&&__THREE_DEVTOOLS__.dispatchEvent(new CustomEvent("observe",{detail:this}))}get coordinateSystem(){return In}get outputColorSpace(){return this._outputColorSpace}set outputColorSpace(e){this._outputColorSpace=e;let t=this.getContext();t.drawingBufferColorSpace=yt._getDrawingBufferColorSpace(e),t.unpackColorSpace=yt._getUnpackColorSpace()}};var CM=4,Pd={2:()=>new Lr(1,48,32),3:([i,e])=>new ps(i,2*e,12,32).rotateX(Math.PI/2),4:()=>new Lr(1,48,32),5:()=>new ms(1,1,2,48).rotateX(Math.PI/2),6:()=>new Ii(2,2,2)},Id={2:([i])=>[i,i,i],3:()=>[1,1,1],4:i=>i,5:([i,e])=>[i,i,e],6:i=>i},el={background:"#f3f1ec",floor:"#f3f1ec",mat:"#fbfaf7",band:"#8a5a2f"},tl=class{constructor(e){this.renderer=new Zo({canvas:e,antialias:!0}),this.renderer.shadowMap.enabled=!0,this.renderer.shadowMap.type=Ki,this.camera=new gn(20,1,.05,30),this.camera.up.set(0,0,1)}build(e,t,n){Object.assign(this,{model:e,structure:t,world:n}),this.scene=new os,this.scene.background=new ut(el.background),this.scene.add(new xs("#ffffff","#d8d2c6",2),this.sun()),this.meshes=t.geoms.map((d,m)=>this.mesh(m)),this.meshes.filter(Boolean).forEach(d=>this.scene.add(d));let[s,o,c]=e.cam_pos,h=e.cam_mat0;new It().set(h[0],h[1],h[2],s,h[3],h[4],h[5],o,h[6],h[7],h[8],c,0,0,0,1).decompose(this.camera.position,this.camera.quaternion,new Q),this.fov=e.cam_fovy[0],this.bands=[]}sun(){let e=new bs("#fff6e6",2.2);return e.position.set(-1.2,-1.6,3),e.castShadow=!0,e.shadow.mapSize.set(1024,1024),Object.assign(e.shadow.camera,{left:-1,right:1,top:1,bottom:-1,far:8}),e.shadow.bias=-.002,e}mesh(e){let{model:t,structure:n}=this,[s,o]=[e===n.floor[0],e===n.floor[1]],c=t.geom_group[e]===CM,h=t.geom_type[e];if(!(h in Pd)||c&&!n.moving.includes(e))return null;let f=Array.from(t.geom_size.slice(3*e,3*e+3)),[d,m,v,g]=t.geom_rgba.slice(4*e,4*e+4),S=new ut().setRGB(d,m,v,mn);(s||o)&&S.set(s?el.floor:el.mat);let w=new _s({color:S,roughness:.62,transparent:g<1,opacity:g}),R=new Ln(Pd[h](f),w);return R.scale.set(...Id[h](f)),R.castShadow=!s&&!o,R.receiveShadow=!0,R.visible=!c&&n.placed.includes(e),R.userData={geom:e,kind:h,isGround:s||o},R}resize(e,t){this.renderer.setPixelRatio(Math.min(window.devicePixelRatio,2)),this.renderer.setSize(e,t,!1),this.camera.aspect=e/t;let n=Math.tan(qo.degToRad(this.fov/2))/Math.min(1,this.camera.aspect);this.camera.fov=qo.radToDeg(2*Math.atan(n)),this.camera.updateProjectionMatrix()}show({positions:e,rotations:t,sizes:n}){let s=new It;this.meshes.forEach((o,c)=>{if(!o)return;let h=t.slice(9*c,9*c+9);s.set(h[0],h[1],h[2],0,h[3],h[4],h[5],0,h[6],h[7],h[8],0,0,0,0,1),o.quaternion.setFromRotationMatrix(s),o.position.fromArray(e,3*c),n[c]&&o.scale.set(...Id[o.userData.kind](n[c]))});for(let{line:o,ends:c}of this.bands)o.geometry.setFromPoints(c.map(h=>h.position))}draw(){this.renderer.render(this.scene,this.camera)}dropShadows(){this.renderer.shadowMap.enabled=!1,this.meshes.filter(Boolean).forEach(e=>e.material.needsUpdate=!0)}reveal(e){let t=this.meshes.filter(s=>s&&!s.visible),n=this.meshes.filter(s=>s?.visible&&!s.userData.isGround);this.scene.updateMatrixWorld(!0);for(let{position:s}of t){let o=s.distanceTo(this.camera.position),c=s.clone().sub(this.camera.position).normalize();for(let h of new Fr(this.camera.position,c,0,o).intersectObjects(n))Object.assign(h.object.material,{transparent:!0,opacity:.25,depthWrite:!1,needsUpdate:!0}),h.object.castShadow=!1}t.forEach(s=>s.visible=!0);for(let s of e){let o=s.map(h=>this.find(h)),c=new hs(new xn,new Ir({color:el.band}));c.material.depthTest=!1,this.bands.push({line:c,ends:o}),this.scene.add(c)}}find(e){let t=this.meshes.filter(n=>n&&this.structure.things[n.userData.geom]===e);return t.find(n=>n.visible)??t[0]}locate(e,t=0){let n=this.find(e);if(!n)return null;let s=n.position.clone();return s.z+=t*n.scale.z,s.project(this.camera),[(s.x+1)/2,(1-s.y)/2]}isBelow(e){let{position:t,scale:n}=this.find(e);return t.z+n.z<=0}pick(e,t){let n=new Fr;n.setFromCamera(new gt(2*e-1,1-2*t),this.camera);let s=n.intersectObjects(this.meshes.filter(o=>o?.visible))[0];return s?this.structure.things[s.object.userData.geom]:null}};var RM=i=>typeof i=="bigint"?BigInt.asUintN(64,i):i,Lt=i=>(...e)=>{let t=Math.max(...e.map(n=>n.length));return Array.from({length:t},(n,s)=>RM(i(...e.map(o=>o.length===1?o[0]:o[s]))))},PM=i=>{let e=Math.round(i);return Math.abs(i%1)===.5&&e%2!==0?e-1:e},IM={absolute:Lt(Math.abs),add:Lt((i,e)=>i+e),any:i=>[+i.some(Boolean)],bitwise_and:Lt((i,e)=>i&e),bitwise_or:Lt((i,e)=>i|e),bitwise_xor:Lt((i,e)=>i^e),clip:Lt((i,e,t)=>Math.min(Math.max(i,e),t)),concatenate:(...i)=>i.flat(),divide:Lt((i,e)=>i/e),equal:Lt((i,e)=>+(i===e)),floor:Lt(Math.floor),floor_divide:Lt((i,e)=>Math.floor(i/e)),from_uint64:Lt(Number),greater:Lt((i,e)=>+(i>e)),greater_equal:Lt((i,e)=>+(i>=e)),left_shift:Lt((i,e)=>i<<e),less:Lt((i,e)=>+(i<e)),less_equal:Lt((i,e)=>+(i<=e)),max:i=>[Math.max(...i)],maximum:Lt(Math.max),minimum:Lt(Math.min),multiply:Lt((i,e)=>i*e),negative:Lt(i=>-i),not_equal:Lt((i,e)=>+(i!==e)),right_shift:Lt((i,e)=>i>>e),rint:Lt(PM),row:(i,[e])=>i[e],sign:Lt(i=>(i>0)-(i<0)),slice:(i,[e],[t])=>i.slice(e,t),sqrt:Lt(Math.sqrt),subtract:Lt((i,e)=>i-e),sum:i=>[i.reduce((e,t)=>e+t,0)],to_uint64:Lt(BigInt),trunc:Lt(Math.trunc),where:Lt((i,e,t)=>i?e:t)};function Ns(i,e){if(typeof i=="number")return[i];if(typeof i=="string")return e[i];let[t,...n]=i;return t==="uint64"?n.map(BigInt):typeof t!="string"?i:IM[t](...n.map(s=>Ns(s,e)))}function nl(i,e,t){let[n,s,o]=[0,0,!1];return{rewards:t.map((h,f)=>{let d=h-i.interactions.length,m=d===e.answers[n];d>=0&&(n+=1);let v=i.num_questions-n;o=v===0||f+1>=i.step_limit;let g=(d<0?0:m?1:-1)-(o?v:0);return s+=g*i.discount**f,g}),over:o,earned:s,answered:n}}var Us=class{constructor(e,t){Object.assign(this,{mujoco:e,task:t,compiled:null})}compile(e){if(this.compiled!==e){for(let t of[this.drawn,this.data,this.model])t?.delete();this.model=this.mujoco.MjModel.from_xml_string(this.task.structures[e].xml),this.data=new this.mujoco.MjData(this.model),this.drawn=new this.mujoco.MjData(this.model),this.compiled=e}}reset(e){let t=this.task.instances[e],n=this.task.structures[t.structure];Object.assign(this,{episode:e,instance:t,structure:n}),this.compile(t.structure);for(let[s,o,c]of t.fields){let h=this.model[s];o.forEach((f,d)=>h[f]=c[d])}return this.start=t.start??n.start,this.mujoco.mj_resetData(this.model,this.data),this.data.qpos.set(this.start.qpos),this.touched=n.held.map(()=>!1),this.actions=[],this.judged=nl(this.task,t,[]),this.measured=this.start.sensordata.slice(),this.observation=this.look()}step(e){let t=e>=this.task.interactions.length;return this.actions.push(e),t||this.interact(e),this.judged=nl(this.task,this.instance,this.actions),(!t||!this.judged.over)&&(this.observation=this.look()),this.observation}interact(e){let{mujoco:t,model:n,data:s,task:o,instance:c}=this,h={actions:[e],qpos:Array.from(s.qpos),ctrl:Array.from(s.ctrl),controls:o.controls},f=c.strength;Ns(o.drive,h).forEach((d,m)=>{s.ctrl[m]=d*(f.length===1?f[0]:f[m])});for(let d=0;d<c.substeps;d++)t.mj_step(n,s);t.mj_fwdPosition(n,s),t.mj_sensorPos(n,s),this.measured=Array.from(s.sensordata),this.structure.held.forEach((d,m)=>{let v=g=>Math.abs(s.qpos[g]-this.start.qpos[g])>o.tolerance;if(d.qpos.some(v)&&(this.touched[m]=!0),!this.touched[m])for(let g of d.sensordata)this.measured[g]=this.start.sensordata[g]})}look(){let{task:e,instance:t,structure:n,actions:s}=this,o=Math.min(this.judged.answered,e.num_questions-1);n.told.forEach((h,f)=>this.measured[h]=t.told[o][s.length][f]);let c=t.noise?.[s.length]??{};return Object.fromEntries(Object.keys(e.readings).map(h=>{let f=Float32Array.from(this.read(h,this.measured));return c[h]?.forEach((d,m)=>f[m]+=d),[h,f]}))}read(e,t){let n=this.structure.addresses[e].map(o=>t[o]),{measure:s}=this.task.readings[e];return s?Ns(s,{sensors:n}):n}placed(e){let{mujoco:t,model:n,drawn:s,structure:o,task:c}=this;s.qpos.set(n.qpos0);for(let[m,v,g]of o.joints)s.qpos[m]=e[v][g];t.mj_kinematics(n,s);let h=Ld(s),f=o.start,d=(m,v)=>e[m][v]-this.read(m,f.sensordata)[v];for(let[m,v,g]of o.displaced)g.forEach((S,w)=>h.positions[3*m+w]=f.geom_xpos[3*m+w]+d(v,S));return o.indicators.forEach(([m,v,g,S],w)=>{S.forEach((R,x)=>{h.positions[3*m+x]=f.geom_xpos[3*m+x]+R*d(v,g)}),c.sizes[w]&&(h.sizes[m]=Ns(c.sizes[w],{value:[e[v][g]]}))}),h}truth(e=null){let{mujoco:t,model:n,data:s,drawn:o,structure:c}=this,h=this.placed(this.observation);e?o.qpos.set(e):o.qpos.set(s.qpos),t.mj_kinematics(n,o);let f={...Ld(o),sizes:h.sizes};for(let[d]of c.indicators)if(!this.isSimulated(d))for(let m=3*d;m<3*d+3;m++)f.positions[m]=h.positions[m];return f}isSimulated(e){return this.model.body_weldid[this.model.geom_bodyid[e]]!==0}},Ld=i=>({positions:Array.from(i.geom_xpos),rotations:Array.from(i.geom_xmat),sizes:{}});var LM=450,DM=40,FM=80,Vc="1234567890qwertyuiopasdfghjklzxcvbnm",NM=12,UM=6,Ke=(i,e={},...t)=>{let n=Object.assign(document.createElement(i),e);return n.append(...t),n},Os=i=>i.replaceAll("_"," "),OM=i=>String(+i.toFixed(3)||0),Hc=i=>i.toFixed(2).replace("-","\u2212"),BM=()=>new Promise(i=>requestAnimationFrame(i)),il=class{constructor(e,t,n,{onEnd:s=()=>{},next:o=null}={}){Object.assign(this,{root:e,task:n,onEnd:s,next:o,world:new Us(t,n)});let c=(h,f="section")=>this[h]=Ke(f,{className:h});this.canvas=Ke("canvas"),e.replaceChildren(Ke("header",{},Ke("h1",{textContent:n.question}),c("price","div")),Ke("div",{className:"stage"},this.canvas,c("marks","div")),Ke("aside",{},c("result"),c("experiments"),c("answers"),c("seen"))),this.result.setAttribute("aria-live","polite"),this.scene=new tl(this.canvas),this.observer=new ResizeObserver(()=>this.resize()),this.observer.observe(this.canvas.parentElement),this.canvas.onclick=h=>this.click(h),this.onKey=h=>this.key(h),window.addEventListener("keydown",this.onKey)}close(){window.removeEventListener("keydown",this.onKey),this.observer.disconnect(),this.scene.renderer.dispose()}begin(e){let t=this.world.reset(e);this.seenSoFar=[t],this.times=[],this.isBusy=!1,this.scene.build(this.world.model,this.world.structure),this.pose=this.world.placed(t),this.names(),this.resize(),this.result.hidden=!0,this.experiments.hidden=this.answers.hidden=!1,this.buttons(),this.tell(),this.readyAt=performance.now()}get isOver(){return this.world.judged.over}async act(e){if(this.isBusy||this.isOver)return;this.isBusy=!0,this.times.push(Math.round(performance.now()-this.readyAt)),this.menu?.remove();let t=this.seenSoFar.at(-1),n=this.world.step(e);this.seenSoFar.push(n),this.buttons(),this.tell(),await this.move(t,n),this.isBusy=!1,this.readyAt=performance.now(),this.isOver?await this.end():this.buttons()}async move(e,t){let n=Object.keys(t).filter(h=>t[h].some((f,d)=>f!==e[h][d])),s=performance.now(),[o,c]=[n.length?0:1,0];for(;o<1;){await BM(),c+=1,o=Math.min(1,(performance.now()-s)/LM);let h=o*o*(3-2*o),f=d=>Array.from(e[d],(m,v)=>m+h*(t[d][v]-m));this.pose=this.world.placed({...t,...Object.fromEntries(n.map(d=>[d,f(d)]))}),this.draw()}c&&(performance.now()-s)/c>FM&&this.scene.dropShadows()}async end(){let{world:e,task:t}=this;this.scene.reveal(e.instance.tied),this.pose=e.truth(),this.show(),this.onEnd(this.record());let n=e.actions.at(-1)-t.interactions.length;for(let s of n>=0&&t.played_out[e.episode]?.[n]||[]){if(await new Promise(o=>setTimeout(o,DM)),e.judged.over===!1)return;this.pose=e.truth(s),this.draw()}}record(){let{task:e,world:t,times:n}=this;return{task:e.name,seed:e.seed,episode:t.episode,actions:[...t.actions],times:[...n]}}resize(){let{clientWidth:e,clientHeight:t}=this.canvas.parentElement;!this.pose||!e||(this.scene.resize(e,t),this.draw())}draw(){this.scene.show(this.pose),this.scene.draw();for(let{node:e,thing:t,above:n}of this.labels){let[s,o]=this.scene.locate(t,n);Object.assign(e.style,{left:`${100*s}%`,top:`${100*o}%`}),e.hidden=this.scene.isBelow(t)}}names(){let{task:e,world:t,scene:n}=this,s=[...new Set(e.interactions.map(({thing:d})=>d))],o=Object.groupBy(t.structure.indicators,([,d])=>d),c=t.structure.indicators.filter(([d,m])=>!s.includes(t.structure.things[d])&&o[m].length<=UM).map(([d,m,v])=>({thing:t.structure.things[d],text:o[m].length>1?`${Os(m)} ${v}`:Os(m)})),h=[...s.map(d=>({thing:d,text:Os(d),isName:!0})),...c],f=new Set;this.labels=h.filter(({thing:d,text:m})=>n.find(d)&&!f.has(m)&&f.add(m)).map(({thing:d,text:m,isName:v})=>({thing:d,above:v?0:1,node:this.mark(m,v,d)})),this.marks.replaceChildren(...this.labels.map(({node:d})=>d))}mark(e,t,n){return t?Ke("button",{className:"name",textContent:e,tabIndex:-1,onclick:s=>this.choose(n,s)}):Ke("span",{className:"board",textContent:e})}click(e){let t=this.canvas.getBoundingClientRect();this.choose(this.scene.pick((e.clientX-t.left)/t.width,(e.clientY-t.top)/t.height),e)}choose(e,t){this.menu?.remove();let n=this.task.interactions.flatMap((h,f)=>h.thing===e?[f]:[]);if(this.isBusy||this.isOver||!n.length)return;if(n.length===1)return this.act(n[0]);let s=this.canvas.getBoundingClientRect();this.menu=Ke("div",{className:"menu"},...n.map(h=>this.button(h,this.task.actions[h])));let[o,c]=[(t.clientX-s.left)/s.width,(t.clientY-s.top)/s.height];Object.assign(this.menu.style,{[o>.6?"right":"left"]:`${100*(o>.6?1-o:o)}%`}),Object.assign(this.menu.style,{[c>.5?"bottom":"top"]:`${100*(c>.5?1-c:c)}%`}),this.marks.append(this.menu)}key(e){if(e.ctrlKey||e.metaKey||e.altKey||e.target.matches?.("select, input"))return;let t=Vc.indexOf(e.key);e.key==="Escape"?this.menu?.remove():t>=0&&t<this.task.actions.length?this.act(t):e.key==="Enter"&&this.isOver&&e.target.tagName!=="BUTTON"&&this.next?.()}button(e,t){let n=Vc[e]?[Ke("kbd",{textContent:Vc[e]})]:[],s=Ke("button",{title:this.task.actions[e],onclick:()=>this.act(e)},t,...n);return s.dataset.action=e,s.disabled=this.isBusy||this.isOver,s}buttons(){let{task:e}=this,t=e.interactions.length,n=document.activeElement?.dataset?.action,s=Object.values(Object.groupBy(e.interactions.keys(),m=>e.interactions[m].thing)),o=s.map(m=>this.row(m.map(v=>[v,e.actions[v]]))),c=s.every(m=>m.length===1),h=()=>[Ke("div",{className:"row"},...o.flatMap(m=>[...m.children]))];this.experiments.replaceChildren(Ke("h2",{textContent:"Experiment"}),...c?h():o);let f=e.labels.map((m,v)=>[t+v,m]),d=`Or answer${e.num_questions>1?` question ${this.world.judged.answered+1} of ${e.num_questions}`:""}`;this.answers.replaceChildren(Ke("h2",{textContent:d}),this.row(f,!1)),n!==void 0&&this.root.querySelector(`[data-action="${n}"]`)?.focus({preventScroll:!0})}row(e,t=e.length>1){let n=e.map(([,f])=>f.split(" ")),s=f=>n.every(d=>d.length>f+1&&d[f]===n[0][f]),o=0;for(;t&&s(o);)o+=1;let c=n[0].slice(0,o).join(" "),h=e.map(([f],d)=>this.button(f,n[d].slice(o).join(" ")));return Ke("div",{className:"row"},...c?[Ke("span",{textContent:c})]:[],...h)}tell(){let{task:e,world:t}=this,n=this.isOver?t.judged.earned:e.discount**t.actions.length,s=e.step_limit-t.actions.length,o=Ke("i");o.style.setProperty("--worth",Math.max(0,n));let c=this.isOver?"earned":`worth now \xB7 ${s} move${s===1?"":"s"} left`;this.price.replaceChildren(Ke("b",{textContent:Hc(n)}),Ke("small",{textContent:c}),o);let h=this.table(),f=h.querySelectorAll("thead tr:last-child th").length>NM,d=this.seen.querySelector("details")?.open??!1,m=Ke("summary",{textContent:"all numbers"});this.seen.replaceChildren(Ke("h2",{textContent:"Seen"}),f?Ke("details",{open:d},m,h):h),this.seen.scrollTop=this.seen.scrollHeight}table(){let{task:e,world:t,seenSoFar:n}=this,s=Object.entries(e.readings).flatMap(([d,m])=>m.names.flatMap((v,g)=>m.components.map((S,w)=>({name:d,place:g*m.components.length+w,title:m.names.length*m.components.length>1?`${v} ${S}`.trim():"",limits:m.limits?.[w]})))),o=Object.entries(e.readings).map(([d,{names:m,components:v,unit:g,meaning:S}])=>Ke("th",{colSpan:m.length*v.length,title:S,textContent:g?`${Os(d)}, ${g}`:Os(d)})),c=(d,{name:m,place:v,limits:g})=>{let S=d[m][v],w=Ke("td",{textContent:OM(S)});return g&&w.style.setProperty("--fill",Math.min(1,Math.abs(S)/Math.max(...g.map(Math.abs)))),w},h=t.judged.rewards,f=d=>{if(d===0)return"at first";let m=t.actions[d-1];return m<e.interactions.length?e.actions[m]:`${e.actions[m]} ${h[d-1]>0?"\u2713":"\u2717"}`};return Ke("table",{},Ke("thead",{},Ke("tr",{},Ke("th"),...o),Ke("tr",{},Ke("th"),...s.map(({title:d})=>Ke("th",{textContent:d})))),Ke("tbody",{},...n.map((d,m)=>Ke("tr",{},Ke("th",{textContent:f(m)}),...s.map(v=>c(d,v))))))}show(){let{task:e,world:t}=this,{instance:n,episode:s,actions:o,judged:c}=t,h=e.interactions.length,f=(R,x)=>{let y=nl(e,n,x),I=(O,P)=>{let U=O<h?"":y.rewards[P]>0?"right":"wrong",N={right:" \u2713",wrong:" \u2717"}[U]??"";return Ke("span",{className:U,textContent:e.actions[O].replace("answer: ","")+N})};return Ke("tr",{},Ke("th",{textContent:R}),Ke("td",{},...x.map(I)),Ke("td",{textContent:Hc(y.earned)}))},d=n.answers.map(R=>e.labels[R]).join(", "),m=c.rewards.filter(R=>R>0).length,v=m===e.num_questions,g=e.num_questions>1?`${m} of ${e.num_questions} right`:v?"Right":"Wrong",S=this.next&&Ke("button",{className:"next",textContent:"Next",onclick:()=>this.next()}),w=Object.entries(n.others??{}).map(([R,x])=>f(R,x));this.result.replaceChildren(Ke("h2",{className:v?"right":"wrong",textContent:`${v?"\u2713":"\u2717"} ${g}: ${d}`}),Ke("p",{textContent:`You earn ${Hc(c.earned)}.`}),Ke("table",{},f("you",o),...w),...S?[S]:[]),this.result.hidden=!1,this.experiments.hidden=this.answers.hidden=!0,this.reveal(),S?.focus({preventScroll:!0})}reveal(){let{instance:e}=this.world,t=[...e.joined.map(o=>[o,"glued"]),...e.tied.map(o=>[o,"band"])],n=Object.entries(e.marks).filter(([o])=>this.scene.find(o)),s=n.map(([o,c])=>({thing:o,above:1,node:Ke("span",{className:"mark",textContent:c})}));this.labels=[...this.labels.filter(({thing:o})=>!n.some(([c])=>c===o)),...s],this.marks.replaceChildren(...this.labels.map(({node:o})=>o)),this.draw();for(let[o,c]of t){let[h,f]=o.map(m=>this.scene.locate(m)),d=Ke("span",{className:"mark",textContent:c});Object.assign(d.style,{left:`${50*(h[0]+f[0])}%`,top:`${50*(h[1]+f[1])}%`}),this.marks.append(d)}}};var rl="physexp",kM=400,zM=async i=>{if(i[0]!==31)return i;let e=new Blob([i]).stream().pipeThrough(new DecompressionStream("gzip"));return new Uint8Array(await new Response(e).arrayBuffer())},Xc=async i=>{let e=await fetch(i);if(!e.ok)throw new Error(`${i}: ${e.status} ${e.statusText}`);return e},$c=i=>document.getElementById(i)?.textContent;async function GM(i=$c("program")){let e=i?Uint8Array.from(atob(i),t=>t.charCodeAt(0)):new Uint8Array(await(await Xc("mujoco.wasm.gz")).arrayBuffer());return Fh({wasmBinary:await zM(e)})}var VM=async()=>JSON.parse($c("tasks")??await(await Xc("tasks.json")).text()),HM=async i=>JSON.parse($c(i)??await(await Xc(`${i}.json`)).text()),rr={all:()=>JSON.parse(localStorage.getItem(rl)??"[]"),add(i){let e={player:rr.player(),...i};localStorage.setItem(rl,JSON.stringify([...rr.all(),e]));let t=document.querySelector("meta[name=records]")?.content;t&&fetch(t,{method:"POST",body:`${JSON.stringify(e)}
+`})},player(){let e=new URLSearchParams(location.search).get("player")??localStorage.getItem(`${rl}-player`)??`person-${crypto.getRandomValues(new Uint32Array(1))[0].toString(36)}`;return localStorage.setItem(`${rl}-player`,e),e},save(){let i=rr.all().map(t=>`${JSON.stringify(t)}
+`),e=URL.createObjectURL(new Blob(i,{type:"application/jsonl"}));Ke("a",{href:e,download:"records.jsonl"}).click(),URL.revokeObjectURL(e)}},Wc=class{constructor(e,t){Object.assign(this,{mujoco:e,known:t,root:document.querySelector("main")}),this.bar=document.querySelector("nav")}async open(e,t,n=null){let{file:s}=this.known.find(d=>d.name===e)??this.known[0];this.player?.close();let o=await HM(s),c=()=>this.begin((this.episode+1)%o.instances.length),h=d=>{n||rr.add(d),this.navigate()};this.player=new il(this.root,this.mujoco,o,{onEnd:h,next:c});let f=rr.all().filter(d=>d.task===o.name).length;this.begin(t??f%o.instances.length);for(let d of n??[])await new Promise(m=>setTimeout(m,kM)),await this.player.act(d);n=null}begin(e){this.episode=e,this.player.begin(e),this.navigate()}get link(){let{task:e,episode:t,actions:n}=this.player.record(),s=new URLSearchParams({task:e,episode:t,...n.length?{actions:n.join(",")}:{}});return`${location.href.split(/[?#]/)[0]}?${s}`.replaceAll("%2C",",").replaceAll("%2F","/")}navigate(){let{task:e}=this.player,t=this.known.map(({name:o,question:c})=>Ke("option",{value:o,textContent:`${o}: ${c}`})),n=Ke("select",{onchange:()=>this.open(n.value),title:"task"},...t);n.value=e.name;let s=rr.all().length;this.bar.replaceChildren(n,Ke("span",{textContent:`instance ${this.episode+1} of ${e.instances.length}`}),Ke("a",{href:this.link,textContent:this.player.isOver?"link to this replay":"link to this instance"}),Ke("button",{textContent:`save ${s} record${s===1?"":"s"}`,disabled:!s,onclick:rr.save}))}};async function WM(){let i=document.querySelector("main");try{let[e,t]=await Promise.all([GM(),VM()]),n=new URLSearchParams(location.search),s=n.get("actions")?.split(",").map(Number),o=n.has("episode")?Number(n.get("episode")):void 0;globalThis.physexp=new Wc(e,t),document.body.dataset.state="playing",await globalThis.physexp.open(n.get("task"),o,s),document.body.dataset.state="ready"}catch(e){throw i.textContent=`This page needs a browser of the last two years, with WebAssembly and WebGL: ${e.message}`,document.body.dataset.state="failed",e}}globalThis.document?.querySelector("main")&&WM();export{Us as World,GM as start};

@@ -1,0 +1,195 @@
+"""The page, in a browser: it computes the same bits as Python, tells no more than readings do, and writes records."""
+
+import hashlib
+import itertools
+import json
+from pathlib import Path
+import re
+import threading
+import urllib.error
+import urllib.request
+
+import browsers
+import numpy as np
+import pytest
+import screens
+import seeds
+
+from physexp import suite
+from physexp.analysis.play import exporting, page
+from physexp.analysis.score import protocol
+
+pytestmark = screens.needs_browser
+
+SOURCES = Path(__file__).parents[3] / "page"
+OPTIONS = [
+    "which_is_heavier/features,variation=1,noise=0.01",
+    "threshold/features,flag_noise=0.2",
+    "balance/features,latch=True",
+    "strings/features,num_pucks=4,num_clamps=2",
+    "strings/features,questions=held_out,num_questions=3",
+    "sealed_box/features,step_variation=0.5",
+]
+TASKS = [f"{domain}/{task}" for domain, task in suite.tagged("features")] + OPTIONS
+SHORT = 6  # Actions, after which contacts still give equal numbers to 1e-9.
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """A page with two tasks, in one file."""
+    tasks = page.prepare(protocol.named(["threshold/features", "strings/features"]), 3)
+    return tasks, page.write_single(tmp_path_factory.mktemp("page") / "page.html", tasks)
+
+
+@pytest.fixture(scope="module")
+def tab(made, tmp_path_factory):
+    with browsers.tab(tmp_path_factory.mktemp("profile")) as opened:
+        opened.open(made[1].as_uri())
+        opened.wait("document.body?.dataset.state == 'ready'")
+        yield opened
+
+
+def begin(tab, path, query):
+    tab.open(f"{path.as_uri()}?{query}")
+    tab.wait("document.body?.dataset.state == 'ready'")
+
+
+# Plays actions in the instances 0, 1 and so on; returns the readings as hexadecimal float32, and the rewards.
+PLAY = """(async () => {
+  const {task, played} = %s;
+  const world = new physexp.player.world.constructor(physexp.mujoco, task);
+  const hex = (seen) => Object.keys(task.readings).map((name) => Array.from(new Uint8Array(seen[name].buffer),
+    (byte) => byte.toString(16).padStart(2, "0")).join("")).join("");
+  const found = played.map((actions, episode) => {
+    const seen = [hex(world.reset(episode)), ...actions.map((action) => hex(world.step(action)))];
+    return {seen, rewards: world.judged.rewards, pose: JSON.stringify(world.placed(world.observation))};
+  });
+  for (const part of [world.drawn, world.data, world.model]) part.delete();
+  return found;
+})()"""
+
+
+def python_plays(environment, index, choose):
+    """The actions, readings and rewards of an episode in Python."""
+    environment.task.next_episode = index
+    timestep, actions, rewards = environment.reset(), [], []
+    seen = [timestep.observation]
+    while not timestep.last():
+        actions.append(choose(len(actions)))
+        timestep = environment.step(actions[-1])
+        rewards.append(timestep.reward)
+        seen.append(timestep.observation)
+    values = [np.concatenate([each[name].ravel() for name in environment.task.readings]) for each in seen]
+    return actions, np.array(values), rewards
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_the_page_observes_the_same_bits_as_python_and_judges_as_it_does(name, tab):
+    (question,), generator = protocol.named([name]), np.random.default_rng(seeds.fresh_seed())
+    environment = protocol.load(question)
+    has_contacts = environment.task.root_entity.mjcf_model.option.flag.contact != "disable"
+    count, labels = question.num_interactions, len(question.label_names)
+
+    def choose(step, last):
+        is_answer = step + 1 >= last or (question.num_questions > 1 and generator.random() < 0.2)
+        return int(generator.integers(count, count + labels) if is_answer else generator.integers(count))
+
+    lasts = [generator.integers(1, SHORT + 1) if has_contacts or k % 2 else question.step_limit for k in range(4)]
+    played = [python_plays(environment, k, lambda step, last=last: choose(step, last)) for k, last in enumerate(lasts)]
+    asked = {"task": exporting.export(question, len(played)), "played": [actions for actions, *_ in played]}
+    for (_, values, rewards), found in zip(played, tab.evaluate(PLAY % json.dumps(asked)), strict=True):
+        seen = np.array([np.frombuffer(bytes.fromhex(each), np.float32) for each in found["seen"]])
+        np.testing.assert_allclose(seen, values, rtol=0, atol=1e-9 if has_contacts else 0)
+        assert has_contacts or seen.tobytes() == values.tobytes()
+        assert found["rewards"] == rewards
+    environment.close()
+
+
+@pytest.mark.parametrize(("name", "actions"), [("strings/features", [0, 1, 2]), ("threshold/features", [3, 1, 5])])
+def test_nothing_that_is_drawn_before_the_answer_tells_more_than_the_readings(name, actions, tab):
+    (question,) = protocol.named([name])
+    data = exporting.export(question, 24)
+    data["played_out"] = []
+    found = tab.evaluate(PLAY % json.dumps({"task": data, "played": [actions] * 24}))
+    pairs = 0
+    for (k, first), (j, second) in itertools.combinations(enumerate(found), 2):
+        if first["seen"] == second["seen"]:
+            assert first["pose"] == second["pose"]
+            pairs += data["instances"][k]["answers"] != data["instances"][j]["answers"]
+    assert pairs > 5
+
+
+def test_buttons_keys_and_things_are_played_and_the_record_is_played_again(made, tab):
+    tasks, path = made
+    begin(tab, path, "task=threshold/features&episode=1&player=someone")
+    tab.click('aside [data-action="3"]')
+    tab.wait("physexp.player.times.length == 1 && !physexp.player.isBusy")
+    assert tab.evaluate("document.querySelector('.price b').textContent") == "0.95"
+    tab.click(".marks .name")  # The block, which eight pushes act on.
+    tab.click('.menu [data-action="5"]')
+    tab.wait("physexp.player.times.length == 2 && !physexp.player.isBusy")
+    tab.press("5")
+    tab.wait("physexp.player.times.length == 3 && !physexp.player.isBusy")
+    tab.click('aside [data-action="12"]')
+    tab.wait("!physexp.player.result.hidden")
+    record = json.loads(tab.evaluate("localStorage.physexp"))[-1]
+    assert {**record, "times": 0} == {
+        "player": "someone",
+        "task": "threshold/features",
+        "seed": protocol.ENVIRONMENT_SEED,
+        "episode": 1,
+        "actions": [3, 5, 4, 12],
+        "times": 0,
+    }
+    assert len(record["times"]) == 4 and min(record["times"]) >= 0
+    environment = protocol.load(*protocol.named([record["task"]]))
+    moves = iter(record["actions"])
+    _, _, rewards = python_plays(environment, record["episode"], lambda step: next(moves))
+    environment.close()
+    assert tab.evaluate("physexp.player.world.judged.rewards") == rewards
+    told = tab.evaluate("document.querySelector('.result').innerText")
+    assert ("Right" if rewards[-1] > 0 else "Wrong") in told and "the ideal" in told and "our agent" in told
+    assert tab.evaluate("physexp.player.scene.meshes.some((mesh) => mesh?.material.opacity === 0.25)")  # The cover.
+    assert not tab.errors
+    assert {address.partition("?")[0] for address in tab.requests} <= {path.as_uri(), "data:,"}
+
+
+def test_a_link_replays_an_episode_and_records_nothing(made, tab):
+    tasks, path = made
+    before = tab.evaluate("localStorage.physexp ?? ''")
+    ideal = tasks["strings-features"]["instances"][2]["others"]["the ideal"]
+    begin(tab, path, f"task=strings/features&episode=2&actions={','.join(map(str, ideal))}")
+    assert tab.evaluate("physexp.player.world.judged.rewards.at(-1)") == 1
+    assert tab.evaluate("location.href") in tab.evaluate("physexp.link").replace("%3A", ":")
+    assert tab.evaluate("localStorage.physexp ?? ''") == before
+
+
+def test_a_served_page_sends_its_records_and_takes_none_from_other_pages(made, tab, tmp_path):
+    path = tmp_path / "records.jsonl"
+    with path.open("w") as records, page.server(made[0], records) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            address = f"http://127.0.0.1:{server.server_port}"
+            tab.open(f"{address}/?task=threshold/features&episode=0")
+            tab.wait("document.body?.dataset.state == 'ready' && !document.querySelector('aside button').disabled")
+            tab.press("9")  # The first answer.
+            tab.wait("!physexp.player.result.hidden")
+            with pytest.raises(urllib.error.HTTPError, match="403"):
+                other = urllib.request.Request(f"{address}/records", b"{}", {"Origin": "http://elsewhere"})
+                urllib.request.urlopen(other)
+            tab.wait("performance.getEntriesByName(`${location.origin}/records`).length")
+        finally:
+            server.shutdown()
+            thread.join()
+    (record,) = map(json.loads, path.read_text().splitlines())
+    assert record["actions"] == [8] and record["episode"] == 0
+
+
+def test_the_built_page_is_of_the_sources_which_name_no_domain():
+    files = sorted(SOURCES.glob("src/*"))
+    names = [SOURCES / name for name in ("build.js", "package-lock.json", "package.json")] + files
+    built = (page.SITE / "sources.sha256").read_text().strip()
+    assert hashlib.sha256(b"".join(path.read_bytes() for path in names)).hexdigest() == built, "run `make page`"
+    words = {word for path in files for word in re.findall(r"\w+", path.read_text())}
+    assert not words & set(suite.TASKS_BY_DOMAIN)
