@@ -192,7 +192,7 @@ def over_tracks(found: Sequence[TaskScore], least: int = 1) -> dict[str, dict[st
 
 def headlines(found: Mapping[str, Any]) -> Mapping[str, Mapping[str, Any]]:
     """Returns the figures that sum up a `score.json`, by name: those of its tracks; without any, those of its tasks."""
-    return {"all domains": found["whole"]} if "whole" in found else found["tracks"] or found["tasks"]
+    return found["tracks"] or found["tasks"] if "tracks" in found else {"all domains": found["whole"]}
 
 
 def over(found: Sequence[TaskScore], questions: Sequence[protocol.Question]) -> dict[str, Any]:

@@ -11,7 +11,7 @@ import pytest
 import screens
 
 from physexp.analysis.data import episodes, plots
-from physexp.analysis.score import protocol, report, scores, scoring, targets
+from physexp.analysis.score import log, protocol, report, scores, scoring, targets, verifying
 from physexp.suite.engine import rules
 
 TASKS = ["threshold/features", "strings/features"]
@@ -66,6 +66,16 @@ def test_all_text_of_a_score_is_shown_as_text(folder, tmp_path):
     assert not re.search(r"<(b>\$|b>&|i|script|img|hr)>", shown) and "\x1b" not in shown
     assert r"<h1>&lt;b&gt;$\frac{1}$ \udcff\x1b[8m</h1>" in shown
     assert "&lt;b&gt;&amp;;" in shown and "&lt;i&gt;" in shown and r"not complete: &lt;hr&gt;\x1b" in shown
+
+
+def test_a_score_of_the_first_version_is_verified_and_shown_in_numbers_of_this_one(folder, found, tmp_path):
+    copied, asked = shutil.copytree(folder, tmp_path / "older"), protocol.named(TASKS)
+    ideals = {one: scores.reference(one, found["protocol"]["episodes"]) for one in asked}
+    metrics = scores.summary(scores.of_log(log.read(copied), ideals, "v1"), "v1")
+    older = {name: value for name, value in found.items() if name != "tracks"} | {"version": "v1"} | metrics
+    (copied / scoring.FILE).write_text(json.dumps(older))
+    assert verifying.verify(copied)["scores"] == {"all domains": metrics["whole"]["score"]}
+    assert f"<b>{found['tracks']['exact']['score']:.3f}</b><br>exact" in report.write(copied)[0].read_text()
 
 
 def test_bars_of_mistakes_begin_at_the_score_and_end_at_1(found):
