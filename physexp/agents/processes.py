@@ -82,12 +82,16 @@ def spawning() -> context.SpawnContext:
 
 @contextlib.contextmanager
 def without_script() -> Iterator[None]:
-    """Context in which spawned processes do not run this program's script again, so it needs no `__main__` guard."""
-    script, sys.modules["__main__"] = sys.modules["__main__"], types.ModuleType("__main__")
+    """Context in which spawned processes get neither this program's script nor its arguments.
+
+    The script needs no `__main__` guard, and files that the arguments name stay unknown.
+    """
+    script, arguments = sys.modules["__main__"], sys.argv
+    sys.modules["__main__"], sys.argv = types.ModuleType("__main__"), arguments[:1]
     try:
         yield
     finally:
-        sys.modules["__main__"] = script
+        sys.modules["__main__"], sys.argv = script, arguments
 
 
 @contextlib.contextmanager

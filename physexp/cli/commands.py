@@ -1,6 +1,6 @@
 """The commands by name, in the order in which help lists them."""
 
-from physexp.cli import demo, doctor, experiments, export, ideal, playing, score, sweep, tasks, train
+from physexp.cli import demo, doctor, experiments, export, ideal, instances, playing, score, sweep, tasks, train
 
 COMMANDS = {
     "tasks": tasks.Tasks,
@@ -12,6 +12,7 @@ COMMANDS = {
     "publish": playing.Publish,
     "ideal": ideal.Ideal,
     "score": score.Score,
+    "draw-instances": instances.DrawInstances,
     "verify": score.Verify,
     "leaderboard": score.Leaderboard,
     "export": export.Export,

@@ -48,6 +48,7 @@ class Score(Playing):
 
     quick: bool = option(False, "100 episodes of each task instead of 1000")
     episodes: int | None = option(None, "number of episodes of each task")
+    instances: Path | None = option(None, "play private instances: the file that `physexp draw-instances` has written")
     algorithm: str | None = option(None, "how your agent was trained, for the report and the leaderboard")
     frames: int | None = option(None, "environment steps of its training")
     minutes: float | None = option(None, "duration of its training, min")
@@ -58,18 +59,27 @@ class Score(Playing):
     def run(self) -> None:
         """Plays, judges, writes the report and prints the score."""
         extras.require("matplotlib")
-        from physexp.analysis.score import playing, protocol, scoring, targets
+        from physexp.analysis.score import instances, playing, protocol, scoring, targets
         from physexp.analysis.training import progress
 
         target = targets.find(self.target, self.greedy)
         chosen = target.choose(self.tasks, self.track)
+        which = protocol.PUBLIC if self.instances is None else instances.read(self.instances, protocol.VERSION)
         usual = protocol.QUICK_EPISODES if self.quick else protocol.EPISODES
         count = usual if self.episodes is None else self.episodes
         folder = self.output or playing.unfinished(Path("scores") / targets.file_name(self.target))
         made = self._made()
         with playing_in(folder), progress.bar("episodes", count * len(chosen)) as show:
             found = scoring.score(
-                target, chosen, count, folder, timeout=self.timeout, made=made, show=show, finish=_write_report
+                target,
+                chosen,
+                count,
+                folder,
+                which=which,
+                timeout=self.timeout,
+                made=made,
+                show=show,
+                finish=_write_report,
             )
         if self.json:
             printing.show(found, as_json=True)
@@ -156,6 +166,9 @@ class Verify:
 
     folder: Path = word("FOLDER", "a folder that `physexp score` has written")
     report: bool = option(False, "draw the report again, if everything follows")
+    instances: Path | None = option(
+        None, "the file of the private instances that it was scored on; by default instances.json in the folder"
+    )
     json: bool = option(False, "print JSON")
 
     def run(self) -> None:
@@ -168,15 +181,20 @@ class Verify:
         stored = scoring.read(self.folder)
         count = stored["protocol"]["episodes"] * len(stored["protocol"]["tasks"])
         with progress.bar("episodes", count) as show:
-            found = verifying.verify(self.folder, show)
+            found = verifying.verify(self.folder, show, self.instances)
         if self.report:
             _write_report(self.folder)
         if self.json:
             printing.show({**found, "complete": stored["complete"]}, as_json=True)
             return
+        of_key = (
+            f", on the private instances of the key with SHA-256 {found['key_hash']}" if "key_hash" in found else ""
+        )
         part = "" if stored["complete"] else f"; it is a part, of {count:,} episodes"
         earned = ", ".join(f"{name} {score:.4f}" for name, score in found["scores"].items())
-        printing.tell(f"OK: {found['episodes']:,} episodes were played so, by {found['target']}; score {earned}{part}")
+        printing.tell(
+            f"OK: {found['episodes']:,} episodes were played so, by {found['target']}{of_key}; score {earned}{part}"
+        )
 
 
 @dataclasses.dataclass

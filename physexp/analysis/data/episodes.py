@@ -79,8 +79,10 @@ class Recorder(environment_loop.Observer):
         )
 
 
-def play(environment: suite.Environment, actor: core.Actor, index: int) -> Episode:
-    """Returns the episode of an index, played by an actor."""
+def play(environment: suite.Environment, actor: core.Actor, index: int, seed: int | None = None) -> Episode:
+    """Returns the episode of an index, played by an actor; by default with the environment's seed."""
+    if seed is not None:
+        environment.task.reseed(seed)
     environment.task.next_episode = index
     recorder = Recorder()
     environment_loop.EnvironmentLoop(environment, actor, [recorder]).run_episode()

@@ -10,7 +10,7 @@ import numpy as np
 
 from physexp import extras
 from physexp.analysis.data import episodes, provenance, tables
-from physexp.analysis.score import conversations, judging, log, playing, protocol, scoring, steps, targets
+from physexp.analysis.score import conversations, instances, judging, log, playing, protocol, scoring, steps, targets
 
 FILE = "export.json"
 TABLE = "steps.parquet"
@@ -68,7 +68,8 @@ def export(
     with playing.session(folder, target, timeout, defining) as session:
         for name in (MINARI, WORDS):
             shutil.rmtree(folder / name, ignore_errors=True)  # Of an interrupted session.
-        for question, its in itertools.groupby(session.play(questions, num_episodes, seed), lambda one: one[0]):
+        played = session.play(questions, num_episodes, instances.Public(seed))
+        for question, its in itertools.groupby(played, lambda one: one[0]):
             for _, episode in its:
                 writers[question].add(episode)
                 show(session.num_played)

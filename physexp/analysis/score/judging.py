@@ -13,7 +13,7 @@ import numpy as np
 from physexp.agents import processes
 from physexp.analysis.ideal import base as ideal_base
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import protocol, scores
+from physexp.analysis.score import instances, protocol, scores
 
 _CACHED = 8192  # Judgements.
 
@@ -46,21 +46,25 @@ class Judge:
 
 
 def judge(
-    played: Mapping[protocol.Question, Sequence[Moves]], show: Callable[[int], None] = lambda done: None
+    played: Mapping[protocol.Question, Sequence[Moves]],
+    show: Callable[[int], None] = lambda done: None,
+    which: instances.Instances = protocol.PUBLIC,
 ) -> dict[protocol.Question, Judged]:
-    """Judges the episodes of tasks; leaves no process behind; raises BrokenExecutor if one was killed.
+    """Judges the episodes of tasks, of some instances; raises BrokenExecutor if a process was killed, and leaves none.
 
     `show` is called with the number of judged episodes: after each one of a single task, which is judged in this
     process, or else after each task.
     """
     if len(played) == 1:
         ((question, its),) = played.items()
-        return {question: _judged(question, its, show)}
+        return {question: _judged(question, its, show, which)}
     context, others = processes.spawning(), set(multiprocessing.active_children())
     pool = futures.ProcessPoolExecutor(min(processes.num_cores(), len(played)), context, initializer=processes.begin)
     try:
         with processes.without_script(), processes.inherited_by_workers():
-            begun = {pool.submit(_judged_by_worker, question.name, its): len(its) for question, its in played.items()}
+            begun = {
+                pool.submit(_judged_by_worker, question.name, its, which): len(its) for question, its in played.items()
+            }
         done = 0
         for future in futures.as_completed(begun):
             future.result()
@@ -75,14 +79,16 @@ def judge(
         pool.shutdown(cancel_futures=True)
 
 
-def _judged(question: protocol.Question, played: Sequence[Moves], show: Callable[[int], None]) -> Judged:
+def _judged(
+    question: protocol.Question, played: Sequence[Moves], show: Callable[[int], None], which: instances.Instances
+) -> Judged:
     judge, found = Judge(question), []
     for hidden, actions in played:
         found.append(mistakes.actions(judge(hidden, actions), actions))
         show(len(found))
-    return Judged(found, scores.reference(question, len(played)))
+    return Judged(found, scores.reference(question, len(played), which))
 
 
-def _judged_by_worker(name: str, played: Sequence[Moves]) -> Judged:
+def _judged_by_worker(name: str, played: Sequence[Moves], which: instances.Instances) -> Judged:
     (question,) = protocol.named([name])  # A question equals itself alone, within one process.
-    return _judged(question, played, lambda done: None)
+    return _judged(question, played, lambda done: None, which)

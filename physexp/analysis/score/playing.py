@@ -17,7 +17,7 @@ from typing import IO, Any
 
 from physexp.agents import environment_loop, files
 from physexp.analysis.data import episodes, lock, provenance
-from physexp.analysis.score import actors, player, protocol, targets, user_agent
+from physexp.analysis.score import actors, instances, player, protocol, targets, user_agent
 
 FILE = "played.jsonl"
 
@@ -36,19 +36,20 @@ class Session:
         self.problem = ""
 
     def play(
-        self, questions: Sequence[protocol.Question], num_episodes: int, seed: int
+        self, questions: Sequence[protocol.Question], num_episodes: int, which: instances.Instances
     ) -> Iterator[tuple[protocol.Question, episodes.Episode]]:
-        """Yields the first episodes of each task, in environments of a seed; stops at the first failure of an agent.
+        """Yields the first episodes of each task, of some instances; stops at the first failure of an agent.
 
         Raises PlayerError if it fails before any episode is over, and ValueError if a stored episode does not follow
         from its actions.
         """
         for question in questions:
             kept = self._kept.get(question.name, ())
-            with contextlib.closing(protocol.load(question, seed)) as environment:
+            with contextlib.closing(protocol.load(question)) as environment:
                 for index, actions in enumerate(kept):
+                    seed = which.seed_of(question.name, index)
                     try:
-                        episode = episodes.play(environment, environment_loop.Repeat(actions), index)
+                        episode = episodes.play(environment, environment_loop.Repeat(actions), index, seed)
                     except ValueError as error:
                         raise ValueError(
                             f"{self._file.name}: {question.name}, episode {index}: {error}; another version has played "
@@ -56,8 +57,9 @@ class Session:
                         ) from None
                     yield question, episode
                 for index in range(len(kept), num_episodes):
+                    seed = which.seed_of(question.name, index)
                     try:
-                        episode = episodes.play(environment, self._make(question, index), index)
+                        episode = episodes.play(environment, self._make(question, index), index, seed)
                     except player.PlayerError as error:
                         if not self.num_played:
                             raise

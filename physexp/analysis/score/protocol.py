@@ -1,6 +1,7 @@
 """The protocol of the score: the tasks, their instances and episodes, and the ideal experimenters to compare with.
 
-All targets play the same instances: episode e of a task is the one with index e in the environment of one seed.
+All targets play the same instances: episode e of a task is the one with index e in an environment of a known seed. With
+a secret key, see `instances`, each episode has a seed of its own.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -18,6 +19,7 @@ from physexp.analysis import domains
 from physexp.analysis.domains import base as domains_base
 from physexp.analysis.domains.base import TRACKS
 from physexp.analysis.ideal import base as ideal_base
+from physexp.analysis.score import instances
 from physexp.suite.engine import options as options_lib
 from physexp.suite.engine import rules
 
@@ -25,7 +27,7 @@ VERSION = "v2"
 FIRST_VERSION = "v1"
 """Its scores are read and verified, too: they count from another floor, and leave out domains."""
 SEED = 2_000_003  # Of the environments, apart from those of training and of evaluation.
-ENVIRONMENT_SEED = suite.environment_seed(SEED, 0)  # With it and an episode's index `suite.load` makes the instance.
+PUBLIC = instances.Public(SEED)
 EPISODES, QUICK_EPISODES = 1_000, 100  # Of each task.
 MAX_EPISODES = 10_000
 
@@ -147,15 +149,15 @@ def floor(question: Question, at_once: float, version: str = VERSION) -> float:
     return ideal_base.floor(at_once, question.discount, question.step_limit - question.num_questions + 1)
 
 
-def load(question: Question, seed: int = SEED) -> suite.Environment:
-    """Returns the environment of a task, the first one of a batch with this seed."""
-    seeded = {**question.options, "random": suite.environment_seed(seed, 0)}
+def load(question: Question) -> suite.Environment:
+    """Returns the environment of a task, with the public instances."""
+    seeded = {**question.options, "random": PUBLIC.seed_of(question.name, 0)}
     return suite.load(question.domain, question.task, seeded)
 
 
-def drawn(question: Question, num_episodes: int) -> np.ndarray:
+def drawn(question: Question, num_episodes: int, which: instances.Instances = PUBLIC) -> np.ndarray:
     """Returns the hidden properties of the first episodes, [N, ...]."""
-    seeds = np.full(num_episodes, ENVIRONMENT_SEED)
+    seeds = np.array([which.seed_of(question.name, index) for index in range(num_episodes)])
     return suite.load_task(question.domain, question.task, question.options).draw(seeds, np.arange(num_episodes))
 
 

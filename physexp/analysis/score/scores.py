@@ -18,7 +18,7 @@ from scipy import special, stats
 
 from physexp.analysis.data import episodes, estimates
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import log, protocol
+from physexp.analysis.score import instances, log, protocol
 from physexp.suite.engine import rules
 
 _RESAMPLES = 2_000
@@ -40,8 +40,10 @@ class Reference:
 
 
 @functools.cache
-def reference(question: protocol.Question, num_episodes: int) -> Reference | None:
-    """Plays the ideal experimenter; returns None if it cannot play from the observations of the task.
+def reference(
+    question: protocol.Question, num_episodes: int, which: instances.Instances = protocol.PUBLIC
+) -> Reference | None:
+    """Plays instances with the ideal experimenter; returns None if it cannot play from the observations of the task.
 
     The hidden property determines how it plays, so it plays one episode of each.
     """
@@ -50,10 +52,12 @@ def reference(question: protocol.Question, num_episodes: int) -> Reference | Non
         actor = solution.actor()
     except ValueError:
         return None
-    drawn = protocol.drawn(question, num_episodes)
+    drawn = protocol.drawn(question, num_episodes, which)
     _, first, counts = np.unique(drawn, axis=0, return_index=True, return_counts=True)
     with contextlib.closing(protocol.load(question)) as environment:
-        played = [episodes.play(environment, actor, int(index)) for index in first]
+        played = [
+            episodes.play(environment, actor, index, which.seed_of(question.name, index)) for index in first.tolist()
+        ]
     taken = [one.actions < question.num_interactions for one in played]
     bits = [
         np.where(interacts, mistakes.information(solution.beliefs(one.hidden, one.actions)), 0.0)[:-1]

@@ -8,7 +8,7 @@ from typing import Any
 from physexp import checks
 from physexp.agents import files
 from physexp.analysis.data import provenance, tables
-from physexp.analysis.score import judging, log, playing, protocol, scores, targets
+from physexp.analysis.score import instances, judging, log, playing, protocol, scores, targets
 
 FILE = "score.json"
 _TRAINED = {
@@ -41,6 +41,7 @@ def score(
     num_episodes: int,
     folder: Path,
     *,
+    which: instances.Instances = protocol.PUBLIC,
     timeout: float = 60.0,
     made: Mapping[str, Any] | None = None,
     show: Callable[[int], None] = lambda done: None,
@@ -56,6 +57,7 @@ def score(
       questions: the tasks.
       num_episodes: of each of them.
       folder: for all files; it is made, is empty, or holds some of these very episodes.
+      which: the instances that are played.
       timeout: for each call of a user's function, s.
       made: further facts of how the target was made: `algorithm`, `frames`, `seconds`.
       show: called with the number of episodes that are done; one that was played, but not yet judged, counts half.
@@ -72,17 +74,17 @@ def score(
     for question in questions:
         protocol.ideal(question)  # Refuses a task without one before anything is played.
     names = [question.name for question in questions]
-    extent = {"seed": protocol.SEED, "episodes": num_episodes, "tasks": names, "agents": target.num_agents}
+    extent = {**which.facts, "episodes": num_episodes, "tasks": names, "agents": target.num_agents}
     facts = {"version": protocol.VERSION, "target": target.name, "greedy": target.greedy, "protocol": extent}
     agent = target.describe(questions)
     defining = {**facts, "agent": agent, "versions": provenance.versions()}
     rows, moves = defaultdict(list), defaultdict(list)
     with playing.session(folder, target, timeout, defining) as session:
-        for question, episode in session.play(questions, num_episodes, protocol.SEED):
+        for question, episode in session.play(questions, num_episodes, which):
             rows[question].append(log.played(question, episode))
             moves[question].append((episode.hidden, episode.actions))  # Images of many episodes are large.
             show(session.num_played // 2)
-        judged = judging.judge(moves, lambda done: show((session.num_played + done) // 2))
+        judged = judging.judge(moves, lambda done: show((session.num_played + done) // 2), which)
         found = log.table(
             log.SCHEMA,
             [
@@ -117,7 +119,8 @@ def read(folder: Path) -> dict[str, Any]:
         raise ValueError(f"{path} is of protocol {version!r}; this version of physexp reads {known}")
     _check_kinds(path, found, {**_KINDS, **_OVER_TASKS[version]})
     found["protocol"].setdefault("agents", 1)  # The first version has no rows of several.
-    _check_kinds(path, found["protocol"], {"seed": int, "episodes": int, "tasks": list, "agents": int})
+    of_instances = {"key_hash": str} if "key_hash" in found["protocol"] else {"seed": int}
+    _check_kinds(path, found["protocol"], {**of_instances, "episodes": int, "tasks": list, "agents": int})
     _check_kinds(path, found["agent"], _TRAINED)
     members = found["agent"].get("agents") or {}
     _check_kinds(path, members, dict.fromkeys(members, dict))

@@ -15,21 +15,23 @@ import physexp
 from physexp.agents import environment_loop
 from physexp.analysis.data import episodes, provenance
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import judging, log, playing, protocol, scores, scoring
+from physexp.analysis.score import instances, judging, log, playing, protocol, scores, scoring
 
 _TOLERANCE = 1e-9  # Of floating-point numbers, on any machine.
 
 
-def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dict[str, Any]:
-    """Plays the log of a folder again; returns the numbers of episodes and actions, the target and its scores.
+def verify(
+    folder: Path, show: Callable[[int], None] = lambda done: None, private: Path | None = None
+) -> dict[str, Any]:
+    """Plays the log of a folder again; returns its numbers of episodes and actions, target, scores and instances.
 
-    `show` is called with the number of episodes that have been played. Raises OSError if a file is missing, and
-    ValueError if anything differs; the line names it.
+    `show` is called with the number of episodes that have been played. Private instances are those of the file
+    `private`, by default of `instances.json` in the folder. Raises OSError if a file is missing, and ValueError if
+    anything differs; the line names it.
     """
     written, found = scoring.read(folder), log.read(folder)
     path, each = folder / log.FILE, written["protocol"]["episodes"]
-    if written["protocol"]["seed"] != protocol.SEED:
-        raise ValueError(f"{folder / scoring.FILE}: seed is {written['protocol']['seed']} instead of {protocol.SEED}")
+    which = _instances(folder, written, private)
     logged, questions = log.split(log.as_columns(found)), protocol.named(written["protocol"]["tasks"])
     expected = each * len(questions)
     if not 0 < len(logged) <= expected or (len(logged) < expected and written["complete"]):
@@ -40,15 +42,16 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
         with contextlib.closing(protocol.load(question)) as environment:
             for index, columns in enumerate(its):
                 place = f"{path}: {question.name}, episode {index}"
+                repeat, seed = environment_loop.Repeat(columns["action"].tolist()), which.seed_of(question.name, index)
                 try:
-                    episode = episodes.play(environment, environment_loop.Repeat(columns["action"].tolist()), index)
+                    episode = episodes.play(environment, repeat, index, seed)
                 except ValueError as error:
                     raise ValueError(f"{place}: {error}") from None
                 judged = mistakes.actions(judge(episode.hidden, episode.actions), episode.actions)
                 again = {**log.played(question, episode), **log.judged(question, episode.actions, judged)}
                 _compare(place, columns, again)
                 show(first + index + 1)
-        ideals[question] = scores.reference(question, len(its))
+        ideals[question] = scores.reference(question, len(its), which)
     version = written["version"]
     metrics = scores.summary(scores.of_log(found, ideals, version, written["protocol"]["agents"]), version)
     for names, theirs, ours in playing.differences({name: written[name] for name in metrics}, metrics, _are_close):
@@ -60,7 +63,28 @@ def verify(folder: Path, show: Callable[[int], None] = lambda done: None) -> dic
         "actions": len(found),
         "target": written["target"],
         "scores": {name: figures["score"] for name, figures in scores.headlines(written).items()},
+        **which.facts,
     }
+
+
+def _instances(folder: Path, written: Mapping[str, Any], private: Path | None) -> instances.Instances:
+    """Returns the instances that a score names; raises ValueError if they are others than those at hand."""
+    extent = written["protocol"]
+    which: instances.Instances = protocol.PUBLIC
+    if "key_hash" in extent:
+        private = private or folder / instances.FILE
+        if not private.exists():
+            raise ValueError(
+                f"{folder} is of private instances, whose key has the hash {extent['key_hash']}; give their file, "
+                "--instances FILE, which its author publishes when the scores are made"
+            )
+        which = instances.read(private, written["version"])
+    elif private is not None:
+        raise ValueError(f"{folder} is of the public instances; leave out --instances {private}")
+    for name, value in which.facts.items():
+        if extent[name] != value:
+            raise ValueError(f"{folder / scoring.FILE}: {name} is {extent[name]} instead of {value}")
+    return which
 
 
 def verify_once(folder: Path) -> None:
