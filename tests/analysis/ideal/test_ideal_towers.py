@@ -1,7 +1,6 @@
 """The ideal experimenter of Towers: its search in made worlds solved by hand, and in the real environment."""
 
 import json
-import math
 
 import ideals
 from made_worlds import COUNTS, PATTERNS, MadeWorld
@@ -12,8 +11,8 @@ from seeds import fresh_seed
 from physexp import suite
 from physexp.agents import environment_loop
 from physexp.analysis import domains
-from physexp.analysis.domains import glue, towers
-from physexp.analysis.ideal import bounds, histories, hypotheses, mistakes, rollouts, search
+from physexp.analysis.domains import towers
+from physexp.analysis.ideal import bounds, histories, hypotheses, search
 from physexp.suite.domains.towers import PRIOR
 from physexp.suite.engine import declarations
 
@@ -122,55 +121,6 @@ def test_actions_are_judged_by_the_best_return_after_them():
     np.testing.assert_allclose(late.values[-1], [-1, -1, -1, -1, -1, 0, 0])
     with pytest.raises(ValueError, match="objective is 'time'; to judge actions, solve for the return"):
         solve(MadeWorld(2, tells), "time").judge(four, np.array([0]))
-
-
-def guesses(generator, num_interactions, step_limit):
-    """An actor whose actions are drawn uniformly, up to an answer or the time limit."""
-    actions = generator.integers(num_interactions + 5, size=step_limit)
-    answers = np.flatnonzero(actions >= num_interactions)
-    return environment_loop.Repeat(actions[: answers[0] + 1] if len(answers) else actions)
-
-
-def wanderer(generator, num_interactions, step_limit):
-    """The rule, but the fist moves at random, mostly to +x."""
-    return glue.GlueRule(generator.choice(4, step_limit, p=[0.55, 0.15, 0.15, 0.15]), num_interactions)
-
-
-@pytest.mark.parametrize(
-    ("task", "policy", "size"),
-    [
-        ("direct_features", "ideal", 32),
-        ("direct_features", "rule", 32),
-        ("direct_features", "random", 400),
-        ("fist_features", "ideal", 32),
-        ("fist_features", "rule", 32),
-        ("fist_features", "random", 200),
-        ("fist_features", "wandering", 16),
-    ],
-)
-def test_luck_is_zero_on_average(task, policy, size):
-    """Luck is the return, plus the costs of the actions, minus the ideal's value."""
-    solution, generator = ideals.of("towers", task, **SHORT), np.random.default_rng(fresh_seed())
-    played = solution.hypotheses.task
-    make = {
-        "ideal": solution.actor,
-        "rule": lambda: towers.rule(task),
-        "random": lambda: guesses(generator, played.num_interactions, played.rules.step_limit),
-        "wandering": lambda: wanderer(generator, played.num_interactions, played.rules.step_limit),
-    }[policy]
-    batch = suite.load_batch("towers", task, size, {**SHORT, "random": fresh_seed()})
-    taken: list[list[int]] = [[] for _ in range(size)]
-    returns = np.zeros(size)
-    for rows, acted, after in rollouts.play_round([make() for _ in range(size)], batch, 0):
-        for row, action in zip(rows, acted, strict=True):
-            taken[row].append(action)
-        returns[rows] = after.reward * 0.98 ** (len(taken[rows[0]]) - 1)
-    actions = [np.array(each) for each in taken]
-    judged = [solution.judge(hidden, each) for hidden, each in zip(batch.hidden, actions, strict=True)]
-    luck = returns + sum(mistakes.of_episodes(judged, actions, 0.98).values()) - solution.value
-    # Near places share a value, which costs a wandering fist about 0.001. The rule and the ideal have no luck at all.
-    rounding = 5e-3 if policy == "wandering" else 1e-9
-    assert abs(luck.mean()) < 4 * luck.std() / math.sqrt(size) + rounding
 
 
 def test_judged_beliefs_are_exact_after_a_detour():

@@ -3,7 +3,6 @@
 import math
 
 from chance import P_VALUE
-import ideals
 import numpy as np
 import pytest
 from scipy import integrate, stats
@@ -11,7 +10,7 @@ from seeds import fresh_seed
 
 from physexp import suite
 from physexp.analysis import domains
-from physexp.analysis.ideal import calibration, mistakes, odd_one_out, rollouts
+from physexp.analysis.ideal import calibration, mistakes, odd_one_out
 from physexp.suite.engine import priors
 
 
@@ -152,16 +151,6 @@ def test_a_tree_of_all_pokes_finds_the_same_values(difficulty, blocks, step_limi
     assert found == pytest.approx(tree, abs=5e-4)  # The parts' width, squared.
 
 
-@pytest.mark.parametrize("num_blocks", [4, 6])
-def test_within_a_time_limit_it_earns_its_value_in_the_environment(num_blocks):
-    task_kwargs = {"time_limit": 0.3, "num_blocks": num_blocks}
-    solution = ideals.of("which_is_heavier", **task_kwargs)
-    actors = [solution.actor() for _ in range(100)]
-    rewards, lengths = rollouts.play(actors, "which_is_heavier", "features", task_kwargs, 8, fresh_seed())
-    returns = rewards * 0.95 ** (lengths - 1)
-    assert abs(returns.mean() - solution.value) < 4.5 * returns.std() / math.sqrt(returns.size) + 1e-3
-
-
 def test_it_reads_masses_from_heights_after_any_control_step():
     kwargs = {"control_timestep": 0.05}
     mass_of = calibration.calibrate("which_is_heavier", "features", "heights", kwargs)
@@ -176,41 +165,6 @@ def test_it_reads_masses_from_heights_after_any_control_step():
 def test_a_control_step_in_which_blocks_reach_the_ceiling_is_refused():
     with pytest.raises(ValueError, match="control_timestep is 0.5 s, after which things .* look the same; give a sh"):
         calibration.calibrate("which_is_heavier", "features", "heights", {"control_timestep": 0.5})
-
-
-def random_episodes(generator, count, difficulty):
-    """Returns masses and careless actions: random pokes, and a random answer or the heaviest poked block."""
-    masses, _ = draw(generator, count, difficulty)
-    actions = []
-    for row in masses:
-        pokes = generator.integers(4, size=generator.integers(0, 6))
-        label = generator.integers(4) if generator.random() < 0.5 or not len(pokes) else pokes[row[pokes].argmax()]
-        actions.append(np.append(pokes, 4 + label))
-    return masses, actions
-
-
-def test_the_costs_of_mistakes_add_up_to_the_gap():
-    generator = np.random.default_rng(fresh_seed())
-    solution = solve(3.0, 0.9)
-    masses, actions = random_episodes(generator, 4_000, 3.0)
-    right = np.array([taken[-1] - 4 == row.argmax() for taken, row in zip(actions, masses, strict=True)])
-    returns = 0.9 ** np.array([len(taken) - 1 for taken in actions]) * np.where(right, 1, -1)
-    costs = mistakes.of_episodes(solution.judge_all(masses, actions), actions, 0.9)
-    total = sum(costs.values())
-    assert all((cost >= -1e-9).all() for cost in costs.values())
-    both = returns + total  # The mean is the value, the spread is luck.
-    assert abs(both.mean() - solution.value) < 4.5 * both.std() / math.sqrt(len(both)) + 1e-3
-
-
-def test_luck_is_zero_on_average_for_unanswered_episodes():
-    step_limit = 4
-    generator = np.random.default_rng(fresh_seed())
-    masses, _ = draw(generator, 4_000, 3.0)
-    actions = [generator.integers(4, size=step_limit) for _ in masses]  # Never answered.
-    solution = solve(3.0, 0.9, step_limit=step_limit)
-    costs = mistakes.of_episodes(solution.judge_all(masses, actions), actions, 0.9)
-    luck = -(0.9 ** (step_limit - 1)) + sum(costs.values()) - solution.value
-    assert abs(luck.mean()) < 4.5 * luck.std() / math.sqrt(len(luck)) + 1e-4
 
 
 def test_each_mistake_is_counted_as_its_kind():
