@@ -11,18 +11,19 @@ from physexp.analysis.domains import base
 from physexp.cli import printing
 from physexp.cli.arguments import RESULTS_DIR, option, word
 
+TARGET = (
+    "the folder of a run; the file of a published agent (NAME.safetensors); DOMAIN/TASK for the agent of the "
+    "package; several of these with commas between, a folder of runs, shipped, or a3c, belief or ppo, for a team, "
+    "in which agents of a task that differ in their seeds play in turns; MODULE:FUNCTION "
+    "for an agent of your own (docs/score.md); or random, at_once, silent, ideal"
+)
+
 
 @dataclasses.dataclass
 class Playing:
     """The options of commands in which a target plays tasks."""
 
-    target: str = word(
-        "TARGET",
-        "the folder of a run; the file of a published agent (NAME.safetensors); DOMAIN/TASK for the agent of the "
-        "package; several of these with commas between, a folder of runs, shipped, or a3c, belief or ppo, for a team, "
-        "in which agents of a task that differ in their seeds play in turns; MODULE:FUNCTION "
-        "for an agent of your own (docs/score.md); or random, at_once, silent, ideal",
-    )
+    target: str = word("TARGET", TARGET)
     tasks: tuple[str, ...] = option(
         (),
         "the tasks, each also with options, as DOMAIN/TASK,OPTION=VALUE,OPTION=VALUE; by default its own of a trained "
@@ -46,6 +47,10 @@ class Score(Playing):
     An interrupted score goes on in its folder.
     """
 
+    target: str | None = word("TARGET", TARGET, "?", None)  # type: ignore[assignment]  # --records has players.
+    records: Path | None = option(
+        None, "instead of a target, a file of what people or models have played (docs/page.md): a score of each player"
+    )
     quick: bool = option(False, "100 episodes of each task instead of 1000")
     episodes: int | None = option(None, "number of episodes of each task")
     instances: Path | None = option(None, "play private instances: the file that `physexp draw-instances` has written")
@@ -58,6 +63,11 @@ class Score(Playing):
 
     def run(self) -> None:
         """Plays, judges, writes the report and prints the score."""
+        if (self.target is None) == (self.records is None):
+            raise ValueError("give a target, or --records FILE; see physexp score --help")
+        if self.records is not None:
+            _score_records(self.records, self.json)
+            return
         extras.require("matplotlib")
         from physexp.analysis.score import instances, playing, protocol, scoring, targets
         from physexp.analysis.training import progress
@@ -124,18 +134,37 @@ def _write_report(folder: Path) -> None:
         ) from None
 
 
+def _score_records(path: Path, as_json: bool) -> None:
+    """Plays a file of records again and prints the score of each player in each task."""
+    from physexp.analysis.score import records
+    from physexp.analysis.training import progress
+
+    read, num_left_out = records.read(path)
+    with progress.bar("records", len(read)) as show:
+        found = records.score(read, show)
+    if num_left_out:
+        printing.warn(f"{num_left_out} records are of instances that their player had played before; they do not count")
+    named = {player: {one.question.name: one.metrics for one in its} for player, its in found.items()}
+    rows = [
+        {"player": player, "task": name, "episodes": figures["episodes"], **_figures(figures)}
+        for player, its in named.items()
+        for name, figures in its.items()
+    ]
+    printing.show(named if as_json else rows, as_json)
+
+
+def _figures(figures: dict) -> dict:
+    return {
+        **_score(figures),
+        "right": figures["success_rate"],
+        "interactions": figures["mean_interactions"],
+        "lost most by": _worst(figures["mistakes"]),
+    }
+
+
 def _of_tasks(found: dict) -> list[dict]:
     """Returns a line for each task."""
-    return [
-        {
-            "task": name,
-            **_score(figures),
-            "right": figures["success_rate"],
-            "interactions": figures["mean_interactions"],
-            "lost most by": _worst(figures["mistakes"]),
-        }
-        for name, figures in found["tasks"].items()
-    ]
+    return [{"task": name, **_figures(figures)} for name, figures in found["tasks"].items()]
 
 
 def _of_tracks(found: dict) -> list[dict]:
@@ -151,7 +180,7 @@ def _of_tracks(found: dict) -> list[dict]:
     ]
 
 
-def _score(figures: dict) -> dict:
+def _score(figures: Mapping[str, Any]) -> dict:
     return {"score": figures["score"], "95 % interval": figures["interval"]}
 
 

@@ -1,0 +1,117 @@
+"""Records of play by people, language models and others: reads them, plays them again in Python, and judges them.
+
+A record is a line of JSON: `player`, `task`, `seed` (of the environment), `episode`, `actions`, `times` (ms, one for
+each action), and further fields. Records come in any order, of any seeds and episodes, and of several players.
+"""
+
+from collections import defaultdict
+from collections.abc import Callable, Sequence
+import contextlib
+import dataclasses
+import json
+from pathlib import Path
+from typing import Any
+
+from physexp import checks, suite
+from physexp.agents import environment_loop
+from physexp.analysis.data import episodes
+from physexp.analysis.ideal import mistakes
+from physexp.analysis.score import judging, log, protocol, scores
+from physexp.suite.engine import seeding
+
+_LARGEST = 2**28  # Bytes of a file.
+
+
+@dataclasses.dataclass(frozen=True)
+class Record:
+    """An episode that was played.
+
+    Attributes:
+      player: its player.
+      question: its task.
+      seed, episode: of its environment, and its index there.
+      actions: its actions.
+      place: file and line, for messages.
+    """
+
+    player: str
+    question: protocol.Question
+    seed: int
+    episode: int
+    actions: tuple[int, ...]
+    place: str
+
+
+def read(path: Path) -> tuple[list[Record], int]:
+    """Returns the first record of each player, task and instance, and the number of the others.
+
+    Raises ValueError for a file without records, and for the first line that is none.
+    """
+    if path.stat().st_size > _LARGEST:
+        raise ValueError(f"{path} has more than {_LARGEST:,} bytes; give parts of it")
+    found: dict[Any, Record] = {}
+    lines = [(number, line) for number, line in enumerate(path.read_bytes().splitlines(), 1) if line.strip()]
+    for number, line in lines:
+        record = _record(f"{path}, line {number}", line)
+        found.setdefault((record.player, record.question, record.seed, record.episode), record)
+    if not found:
+        raise ValueError(f"{path} has no records; give a file with a line of JSON for each episode")
+    return list(found.values()), len(lines) - len(found)
+
+
+def _record(place: str, line: bytes) -> Record:
+    try:
+        fields = json.loads(line)
+    except ValueError:
+        fields = None
+    if not isinstance(fields, dict):
+        raise ValueError(f"{place} is no object of JSON; was the file cut off?")
+    for name, kind in {"player": str, "task": str, "actions": list, "times": list}.items():
+        if not isinstance(fields.get(name), kind):
+            raise ValueError(f"{place}: {name} is {checks.shown(fields.get(name))}; give a {kind.__name__}")
+    if len(fields["times"]) != len(fields["actions"]):
+        raise ValueError(f"{place} has {len(fields['times'])} times for {len(fields['actions'])} actions; give as many")
+    try:
+        (question,) = protocol.named([fields["task"]])
+        seed = checks.integer("seed", fields.get("seed"), 0, seeding.LARGEST_SEED)
+        episode = checks.integer("episode", fields.get("episode"), 0, seeding.LAST_EPISODE)
+        allowed = question.num_actions - 1
+        actions = tuple(checks.integer("an action", action, 0, allowed) for action in fields["actions"])
+    except ValueError as error:
+        raise ValueError(f"{place}: {error}") from None
+    return Record(fields["player"], question, seed, episode, actions, place)
+
+
+def score(
+    records: Sequence[Record], show: Callable[[int], None] = lambda done: None
+) -> dict[str, list[scores.TaskScore]]:
+    """Returns the scores of each player in each task; `show` is called with the number of records that are judged.
+
+    Raises ValueError for a record that cannot be played again, and for a task whose ideal experimenter is not known.
+    """
+    found = defaultdict(list)
+    of_task: dict[protocol.Question, list[Record]] = defaultdict(list)
+    for record in records:
+        of_task[record.question].append(record)
+    done = 0
+    for question, its in of_task.items():
+        judge, rows = judging.Judge(question), defaultdict(list)
+        with contextlib.closing(suite.load(question.domain, question.task, question.options)) as environment:
+            for record in its:
+                episode = _played(environment, record)
+                judgement = mistakes.actions(judge(episode.hidden, episode.actions), episode.actions)
+                judged = log.judged(question, episode.actions, judgement)
+                rows[record.player].append({**log.played(question, episode), **judged})
+                show(done := done + 1)
+        for player, columns in rows.items():
+            found[player] += scores.of_log(log.table(log.SCHEMA, columns), {question: None})
+    return dict(found)
+
+
+def _played(environment: suite.Environment, record: Record) -> episodes.Episode:
+    """Returns the episode of a record, played again."""
+    environment.task.reseed(record.seed)
+    try:
+        return episodes.play(environment, environment_loop.Repeat(record.actions), record.episode)
+    except ValueError as error:
+        raise ValueError(f"{record.place}: {error}") from None
