@@ -28,7 +28,7 @@ export class Player {
     root.replaceChildren(
       element("header", {}, element("h1", { textContent: task.question }), part("price", "div")),
       element("div", { className: "stage" }, this.canvas, part("marks", "div")),
-      element("aside", {}, part("result"), part("experiments"), part("answers"), part("seen")),
+      element("aside", {}, part("result"), part("experiments"), part("answers"), part("seen"), this.about()),
     );
     this.result.setAttribute("aria-live", "polite");
     this.scene = new Scene(this.canvas);
@@ -37,6 +37,11 @@ export class Player {
     this.canvas.onclick = (event) => this.click(event);
     this.onKey = (event) => this.key(event);
     window.addEventListener("keydown", this.onKey);
+  }
+
+  about() {
+    const summary = element("summary", { textContent: "What is on the table" });
+    return element("section", {}, element("details", {}, summary, element("p", { textContent: this.task.description })));
   }
 
   close() {

@@ -45,6 +45,7 @@ def export(question: protocol.Question, num_instances: int, seed: int = protocol
     return {
         "name": question.name,
         "question": question.question,
+        "description": question.description,
         "actions": list(question.action_names),
         "labels": list(question.label_names),
         "interactions": [{"thing": each.thing, "vector": list(map(float, each.vector))} for each in task.interactions],

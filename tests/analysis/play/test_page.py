@@ -26,6 +26,7 @@ OPTIONS = [
     "which_is_heavier/features,variation=1,noise=0.01",
     "threshold/features,flag_noise=0.2",
     "balance/features,latch=True",
+    "balance/features,questions=all",
     "strings/features,num_pucks=4,num_clamps=2",
     "strings/features,questions=held_out,num_questions=3",
     "sealed_box/features,step_variation=0.5",
