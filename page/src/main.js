@@ -60,9 +60,10 @@ class Page {
   }
 
   async open(name, episode, actions = null) {
-    const { file } = this.known.find((each) => each.name === name) ?? this.known[0];
+    const names = this.known.map((each) => each.name);
+    if (!names.includes(name)) throw new Error(`it has no task ${name}; choose from ${names.join(", ")}`);
     this.player?.close();
-    const task = await taskOf(file);
+    const task = await taskOf(this.known[names.indexOf(name)].file);
     const next = () => this.begin((this.episode + 1) % task.instances.length);
     // A replay that a link tells is nobody's play.
     const onEnd = (record) => {
@@ -115,10 +116,10 @@ async function run() {
     const episode = query.has("episode") ? Number(query.get("episode")) : undefined;
     globalThis.physexp = new Page(mujoco, known);
     document.body.dataset.state = "playing";
-    await globalThis.physexp.open(query.get("task"), episode, actions);
+    await globalThis.physexp.open(query.get("task") ?? known[0].name, episode, actions);
     document.body.dataset.state = "ready";
   } catch (error) {
-    main.textContent = `This page needs a browser of the last two years, with WebAssembly and WebGL: ${error.message}`;
+    main.textContent = `This page cannot be shown: ${error.message}`;
     document.body.dataset.state = "failed";
     throw error;
   }

@@ -96,7 +96,7 @@ class Play:
     seed: int | None = option(None, "seed of the environment; by default one from the operating system")
     view: bool = option(False, "show the scene in rerun's viewer as well; this needs a display")
     web: bool = option(False, "play in the browser instead, on a page that is served to this machine alone")
-    records: Path = option(Path("records.jsonl"), "the file to which --web appends the moves, for `physexp score`")
+    records: Path | None = option(None, "a file to which your moves are appended, for `physexp score --records`")
     task_kwargs: dict[str, Any] = dataclasses.field(default_factory=dict)
 
     def run(self) -> None:
@@ -105,7 +105,7 @@ class Play:
         if not self.web:
             from physexp.analysis.play import game
 
-            game.play(domain, task, self.task_kwargs, self.seed, self.view)
+            game.play(domain, task, self.task_kwargs, self.seed, self.view, self.records)
             return
         from physexp.analysis.play import page
         from physexp.analysis.score import protocol

@@ -1,10 +1,11 @@
 """Commands that score anything that experiments."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 import contextlib
 import dataclasses
 from pathlib import Path
 import shlex
+from typing import Any
 
 from physexp import checks, extras
 from physexp.analysis.domains import base
@@ -63,11 +64,11 @@ class Score(Playing):
 
     def run(self) -> None:
         """Plays, judges, writes the report and prints the score."""
-        if (self.target is None) == (self.records is None):
-            raise ValueError("give a target, or --records FILE; see physexp score --help")
-        if self.records is not None:
+        if self.records is not None and self.target is None:
             _score_records(self.records, self.json)
             return
+        if self.records is not None or self.target is None:
+            raise ValueError("give a target, or --records FILE; see physexp score --help")
         extras.require("matplotlib")
         from physexp.analysis.score import instances, playing, protocol, scoring, targets
         from physexp.analysis.training import progress
@@ -153,7 +154,7 @@ def _score_records(path: Path, as_json: bool) -> None:
     printing.show(named if as_json else rows, as_json)
 
 
-def _figures(figures: dict) -> dict:
+def _figures(figures: Mapping[str, Any]) -> dict:
     return {
         **_score(figures),
         "right": figures["success_rate"],

@@ -18,7 +18,7 @@ from physexp.analysis.score import protocol
 from physexp.suite.engine import apparatus as apparatus_lib
 from physexp.suite.engine import contract, episodes
 
-_FRAME = 0.04  # s, between the frames of what an answer leads to
+_FRAME = 0.04  # s, between the frames of a film after an answer
 _DIGITS = 4  # Of coordinates that are drawn, m.
 
 Data = dict[str, Any]

@@ -2,15 +2,20 @@
 
 from collections.abc import Callable, Mapping
 import dataclasses
+import json
+from pathlib import Path
 import shutil
 import textwrap
+import time
 from typing import Any
 
 from physexp import suite
 from physexp.agents import config as agent_config
 from physexp.agents import core, environment_loop
+from physexp.analysis.data import episodes
 from physexp.analysis.play import others as others_lib
 from physexp.analysis.play import terminal
+from physexp.analysis.score import protocol
 
 _QUIT, _HELP = "q", "?"
 
@@ -41,18 +46,28 @@ class _Quit(Exception):  # noqa: N818
 
 
 class _Person(core.Actor):
-    """Asks a person, who sees drawings of the observations."""
+    """Asks a person, who sees drawings of the observations.
+
+    Attributes:
+      actions, times: the actions of the episode, and the time that each took, ms.
+    """
 
     def __init__(self, task, rules: str, read: Callable[[str], str], show: Callable[[str], None]):
         self._task, self._rules, self._read, self._show = task, rules, read, show
+        self.actions: list[int] = []
+        self.times: list[int] = []
 
     def observe_first(self, timestep):
-        """Does nothing: the drawing comes with the question."""
+        """Begins a record; the drawing comes with the question."""
+        self.actions, self.times = [], []
 
     def select_action(self, observation):
         """Returns the action that the person types; raises _Quit if it is none."""
         self._show(terminal.drawing(observation, self._task.observer.readings, *shutil.get_terminal_size()))
-        count = self._task.rules.num_actions
+        count, steps = self._task.rules.num_actions, len(self.actions)
+        left = self._task.rules.step_limit - steps
+        self._show(f"worth now {self._task.discount**steps:.2f}; {left} move{'' if left == 1 else 's'} left")
+        shown_at = time.monotonic()
         while True:
             try:
                 text = self._read("action: ").strip()
@@ -61,6 +76,8 @@ class _Person(core.Actor):
             if text == _QUIT:
                 raise _Quit
             if text.isdecimal() and len(text) < 10 and int(text) < count:
+                self.actions.append(int(text))
+                self.times.append(round(1000 * (time.monotonic() - shown_at)))
                 return int(text)
             refusal = f"{text[:40]!r} is no action; " if text else ""
             asked = f"{refusal}type a number from 0 to {count - 1}, {_HELP} or {_QUIT}"
@@ -79,6 +96,7 @@ def play(
     task_kwargs: Mapping[str, Any] | None = None,
     seed: int | None = None,
     view: bool = False,
+    records: Path | None = None,
     read: Callable[[str], str] = input,
     show: Callable[[str], None] = print,
 ) -> dict[str, Score]:
@@ -88,6 +106,7 @@ def play(
       domain, task, task_kwargs: arguments of `suite.load`, without the seed.
       seed: seed of the environment; by default one from the operating system.
       view: show the scene in rerun's viewer as well.
+      records: file to which the record of each episode is appended.
       read: returns the player's reply to a prompt; an end of file quits.
       show: shows a text.
 
@@ -102,12 +121,14 @@ def play(
     observers = _viewers(domain, task, kwargs) if view else []
     rules = _rules(environment)
     show(rules)
+    show(f"seed {environment.task.options.random}")
     others = others_lib.players(domain, task, kwargs)
     if others_lib.TRAINED not in others:
         trained = "".join(f" at {name} {agent_config.shown(value)}" for name, value in kwargs.items())
         show(f"There is no agent trained{trained} to compare you with.\n")
     scores = {name: Score() for name in ("you", *others)}
-    you = environment_loop.EnvironmentLoop(environment, _Person(environment.task, rules, read, show), observers)
+    person = _Person(environment.task, rules, read, show)
+    you = environment_loop.EnvironmentLoop(environment, person, observers)
     # The others play in an environment of their own, with the same instances.
     again = suite.load(domain, task, task_kwargs={**kwargs, "random": environment.task.options.random})
     while True:
@@ -116,12 +137,27 @@ def play(
         except _Quit:
             return scores
         scores["you"].add(environment)
+        if records is not None:
+            _append(records, protocol.question(domain, task, kwargs).name, environment, person)
         for name, actor in others.items():
-            again.task.next_episode = environment.task.episode
-            environment_loop.EnvironmentLoop(again, actor).run_episode()
+            played = episodes.play(again, actor, environment.task.episode)
             scores[name].add(again)
-            show(f"  the {name} was {_outcome(again)}")
+            moves = ", ".join(again.task.action_names[action] for action in played.actions)
+            show(f"  the {name} was {_outcome(again)}: {moves}")
         show("\n".join(f"{name:20} {score}" for name, score in scores.items()) + "\n")
+
+
+def _append(path: Path, name: str, environment: suite.Environment, person: _Person) -> None:
+    """Appends the record of an episode that a person has played to a file."""
+    task = environment.task
+    played = {
+        "seed": int(task.options.random),
+        "episode": task.episode,
+        "actions": person.actions,
+        "times": person.times,
+    }
+    with path.open("a", encoding="utf-8") as file:
+        file.write(json.dumps({"player": "you", "task": name, **played}) + "\n")
 
 
 def _viewers(domain: str, task: str, kwargs: Mapping[str, Any]) -> list[environment_loop.Observer]:

@@ -108,15 +108,15 @@ def _inline(text: str) -> str:
 class _Handler(http.server.SimpleHTTPRequestHandler):
     """Serves the page, and appends the records that it sends to a file."""
 
-    def __init__(self, *args: Any, tasks: dict[str, str], records: IO[str], **kwargs: Any):
+    def __init__(self, *args: Any, tasks: dict[str, str], records: IO[str] | None, **kwargs: Any):
         self._tasks, self._records = tasks, records
         super().__init__(*args, directory=str(SITE), **kwargs)
 
     def do_GET(self) -> None:
         name = self.path.partition("?")[0].lstrip("/")
         if name in ("", "index.html"):
-            page = (SITE / "index.html").read_text()
-            self._send(page.replace("<title>", f'<meta name="records" content="{_RECORDS}"><title>'), "text/html")
+            page, meta = (SITE / "index.html").read_text(), f'<meta name="records" content="{_RECORDS}">'
+            self._send(page.replace("<title>", f"{meta}<title>") if self._records else page, "text/html")
         elif name.removesuffix(".json") in self._tasks:
             self._send(self._tasks[name.removesuffix(".json")], "application/json")
         else:
@@ -126,7 +126,12 @@ class _Handler(http.server.SimpleHTTPRequestHandler):
         size = int(self.headers.get("Content-Length", 0))
         # Another page that is open in the browser may not write here.
         host = self.headers.get("Host", "")
-        if self.path != f"/{_RECORDS}" or size > _LARGEST_RECORD or self.headers.get("Origin") != f"http://{host}":
+        if (
+            self._records is None
+            or self.path != f"/{_RECORDS}"
+            or size > _LARGEST_RECORD
+            or self.headers.get("Origin") != f"http://{host}"
+        ):
             self.send_error(http.HTTPStatus.FORBIDDEN)
             return
         line = json.dumps(json.loads(self.rfile.read(size)))
@@ -146,16 +151,17 @@ class _Handler(http.server.SimpleHTTPRequestHandler):
         """Writes nothing."""
 
 
-def server(tasks: dict[str, exporting.Data], records: IO[str]) -> http.server.ThreadingHTTPServer:
-    """Returns a server of the page for this machine alone, which writes records into an open file."""
+def server(tasks: dict[str, exporting.Data], records: IO[str] | None) -> http.server.ThreadingHTTPServer:
+    """Returns a server of the page for this machine alone, which writes records into an open file if there is one."""
     handler = functools.partial(_Handler, tasks=_contents(tasks), records=records)
     return http.server.ThreadingHTTPServer((_LOOPBACK, 0), handler)
 
 
-def serve(tasks: dict[str, exporting.Data], records: Path, tell: callbacks.Tell) -> None:
-    """Serves the page, opens it in the browser, and appends records to a file, until it is interrupted."""
-    with records.open("a", encoding="utf-8") as file, server(tasks, file) as service:
+def serve(tasks: dict[str, exporting.Data], records: Path | None, tell: callbacks.Tell) -> None:
+    """Serves the page, opens it in the browser, and appends records to a file if there is one, until interrupted."""
+    opened = contextlib.nullcontext() if records is None else records.open("a", encoding="utf-8")
+    with opened as file, server(tasks, file) as service:
         address = f"http://{_LOOPBACK}:{service.server_port}/"
-        tell(f"serving {address} to this machine alone, with records in {records}; Ctrl-C ends it")
+        tell(f"serving {address} to this machine alone; Ctrl-C ends it")
         webbrowser.open(address)
         service.serve_forever()

@@ -89,7 +89,7 @@ def score(
 
     Raises ValueError for a record that cannot be played again, and for a task whose ideal experimenter is not known.
     """
-    found = defaultdict(list)
+    found: dict[str, list[scores.TaskScore]] = defaultdict(list)
     of_task: dict[protocol.Question, list[Record]] = defaultdict(list)
     for record in records:
         of_task[record.question].append(record)

@@ -107,7 +107,7 @@ def test_the_page_observes_the_same_bits_as_python_and_judges_as_it_does(name, t
 
 
 @pytest.mark.parametrize(("name", "actions"), [("strings/features", [0, 1, 2]), ("threshold/features", [3, 1, 5])])
-def test_nothing_that_is_drawn_before_the_answer_tells_more_than_the_readings(name, actions, tab):
+def test_nothing_drawn_before_the_answer_tells_more_than_the_readings(name, actions, tab):
     (question,) = protocol.named([name])
     data = exporting.export(question, 24)
     data["played_out"] = []
@@ -163,6 +163,14 @@ def test_a_link_replays_an_episode_and_records_nothing(made, tab):
     assert tab.evaluate("physexp.player.world.judged.rewards.at(-1)") == 1
     assert tab.evaluate("location.href") in tab.evaluate("physexp.link").replace("%3A", ":")
     assert tab.evaluate("localStorage.physexp ?? ''") == before
+
+
+def test_a_link_to_a_task_that_the_page_lacks_lists_those_that_it_has(made, tab):
+    tab.open(f"{made[1].as_uri()}?task=strings/features,num_pucks=4")
+    tab.wait("document.body?.dataset.state == 'failed'")
+    told = tab.evaluate("document.querySelector('main').textContent")
+    assert told.endswith("no task strings/features,num_pucks=4; choose from threshold/features, strings/features")
+    tab.errors.clear()
 
 
 def test_a_served_page_sends_its_records_and_takes_none_from_other_pages(made, tab, tmp_path):

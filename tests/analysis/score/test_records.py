@@ -21,7 +21,7 @@ def written(path, *lines):
     return path
 
 
-def test_players_in_any_order_get_the_scores_of_a_target_that_plays_the_same(tmp_path):
+def test_players_in_any_order_get_the_scores_of_targets_that_play_so(tmp_path):
     expected, lines = {}, []
     for question in protocol.named(TASKS):
         for player in ("ideal", "random"):
