@@ -41,6 +41,10 @@ class Alternating(core.Batch):
         return self._batches[0].num_environments
 
     @property
+    def num_questions(self) -> int:
+        return self._batches[0].num_questions
+
+    @property
     def correct_answers(self) -> np.ndarray:
         return self._current.correct_answers
 
@@ -57,6 +61,7 @@ class Alternating(core.Batch):
             batch.close()
 
 
-def _spaces(batch: core.Specs) -> str:
+def _spaces(batch: core.Batch) -> str:
     shapes = ", ".join(f"{name} {list(spec.shape)}" for name, spec in batch.observation_spec().items())
-    return f"{batch.num_interactions} interactions, {batch.action_spec().num_values} actions, and {shapes}"
+    actions = f"{batch.num_interactions} interactions, {batch.action_spec().num_values} actions"
+    return f"{actions}, num_questions {batch.num_questions}, and {shapes}"

@@ -47,6 +47,10 @@ class Batch(Specs, Protocol):
     def correct_answers(self) -> np.ndarray:
         """Returns the right labels of the current episodes, int64 [B]; never observable."""
 
+    @property
+    def num_questions(self) -> int:
+        """Returns how many questions an episode has, K; it ends with the answer to the last one."""
+
     def reset(self, *, episode: int | None = None) -> dm_env.TimeStep:
         """Starts the episode of an index, or the next one, in every environment; returns arrays [B, ...]."""
 

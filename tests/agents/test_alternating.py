@@ -32,7 +32,7 @@ def test_each_round_is_the_same_as_in_its_own_setting():
 
 
 def test_settings_that_one_network_cannot_play_are_refused():
-    with pytest.raises(ValueError, match=r"^a setting has 6 interactions, 12 actions, and .*the first one 4 inter"):
+    with pytest.raises(ValueError, match=r"^a setting has 6 interactions, 12 actions, .*the first one 4 inter"):
         trainer.make_environment(make_config({}, {"num_blocks": 6}), seed=0, num_environments=2, num_threads=1)
 
 

@@ -120,8 +120,30 @@ def test_targets_of_interactions_follow_from_the_step_after_them(case):
     *columns, lambda_, expected = TARGETS[case]
     answering, interacting, are_greedy = (torch.tensor(column)[:, None] for column in columns)
     are_last = (torch.arange(len(answering)) == len(answering) - 1)[:, None]
-    found = losses.interaction_targets(answering, interacting, are_greedy, are_last, torch.tensor([-1.0]), 0.9, lambda_)
+    rewards = -are_last.float()
+    found = losses.interaction_targets(answering, interacting, are_greedy, are_last, rewards, 0.9, lambda_)
     assert found[0].item() == pytest.approx(expected)
+
+
+def test_beliefs_and_values_belong_to_the_question_that_is_asked():
+    """A question ends with its answer, or with the time limit: then nothing is learned about those that are left."""
+    kwargs, seed = {"questions": "all", "num_questions": 3, "time_limit": 0.5}, fresh_seed()
+    config = SMALL.replace(seed=seed, max_interactions=3)
+    learner = belief.Belief(
+        lambda seed, size, threads: suite.load_batch("strings", "features", size, {**kwargs, "random": seed}), config
+    )
+    learner.step()
+    played, truth = learner.last_round, learner._environment.ledger.answers
+    are_ends, labels, are_counted = learner._label_targets(played, torch.randn(*played.actions.shape, 2))
+    for episode, length in enumerate(played.lengths):
+        are_answers = played.actions[:length, episode] >= 6
+        asked = are_answers.cumsum() - are_answers
+        for step in range(length):
+            assert are_ends[step, episode] == (are_answers[step] or step == length - 1)
+            assert are_counted[step, episode] == are_answers[step:].any()
+            if are_counted[step, episode]:
+                assert labels[step, episode].tolist() == np.eye(2)[truth[episode, asked[step]]].tolist()
+    assert not are_counted[~torch.from_numpy(played.played)].any()
 
 
 def test_calibration_is_the_mean_distance_of_belief_and_success():

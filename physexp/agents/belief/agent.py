@@ -35,7 +35,8 @@ class Belief(synchronous.SynchronousAgent):
         network.to(devices.choose(config.device, network.sees_images))
         num_rounds = config.replay_episodes // num_environments
         dtype = np.float16 if network.sees_images else np.float32
-        episodes = replay.Replay(num_rounds, config.max_interactions + 1, num_environments, network.num_inputs, dtype)
+        longest = config.max_interactions + self._environment.num_questions
+        episodes = replay.Replay(num_rounds, longest, num_environments, network.num_inputs, dtype)
         self.variables, self._config = learning.Variables(network, episodes), config
 
     def _play(self, number: int, choose: acting_lib.Choose) -> rounds.Round:
@@ -45,13 +46,15 @@ class Belief(synchronous.SynchronousAgent):
     def step(self) -> dict[str, float]:
         """Plays a round, and makes as many steps of Adam as its frames ask for."""
         config, variables, number = self._config, self.variables, self.next_episode
+        num_questions = self._environment.num_questions
         policy = acting.BehaviourPolicy(variables.network.num_interactions, config, number)
         self.last_round = played = self._play(number, policy.choose)
         variables.episodes.add(played, number)
         self._measure_changes(played)
-        answered = np.stack([policy.beliefs, played.rewards.sum(axis=0) > 0], axis=1)
+        last = played.rewards[played.lengths - 1, np.arange(len(played.lengths))]
+        answered = np.stack([policy.beliefs, last > 0], axis=1)
         variables.add_outcomes(torch.from_numpy(answered[policy.are_greedy & ~np.isnan(policy.beliefs)]))
-        returns = played.rewards.sum(axis=0) * config.discount ** (played.lengths - 1.0)
+        returns = (played.rewards * config.discount ** np.arange(float(len(played.rewards)))[:, None]).sum(axis=0)
         greedy_returns = torch.from_numpy(returns[policy.are_greedy])
         variables.compare(greedy_returns)
         steps_before = int(variables.frames) // config.frames_per_update
@@ -66,7 +69,7 @@ class Belief(synchronous.SynchronousAgent):
         variables.update_agent()
         return {
             **{name: float(np.mean([each[name] for each in metrics or [_NO_METRICS]])) for name in _NO_METRICS},
-            "greedy_success_rate": float((greedy_returns > 0).double().mean()),
+            "greedy_success_rate": float((played.rewards > 0).sum(0)[policy.are_greedy].mean() / num_questions),
             "greedy_return": float(greedy_returns.mean()),
             **self._calibration(),
             "learning_rate": learning_rate,
@@ -84,15 +87,14 @@ class Belief(synchronous.SynchronousAgent):
             outputs_of_held_out = averaged.held_out(inputs, actions.to(network.device))
         held_out_logits, held_out_shares = (part.cpu() for part in outputs_of_held_out)
         learns = torch.arange(networks.ENSEMBLE_SIZE)[:, None, None] != held_out
-        labels, are_counted = _label_targets(episodes, held_out_logits, network.num_interactions, config)
+        are_ends, labels, are_counted = self._label_targets(episodes, held_out_logits)
         belief_loss = losses.belief_loss(logits, labels, are_counted & learns)
         beliefs = held_out_logits.softmax(-1)
         best = (shares.detach() * learns[..., None]).sum(0).argmax(-1)  # By the members that learn from the episode.
         interacting = network.values(beliefs, held_out_shares).gather(-1, best[..., None])[..., 0]
-        answering, rewards = losses.answer_values(beliefs.amax(-1)), torch.from_numpy(episodes.rewards.sum(axis=0))
-        are_last = torch.from_numpy(episodes.is_last)
+        answering, rewards = losses.answer_values(beliefs.amax(-1)), torch.from_numpy(episodes.rewards)
         targets = losses.interaction_targets(
-            answering, interacting, best == actions, are_last, rewards, config.discount, _LAMBDA
+            answering, interacting, best == actions, are_ends, rewards, config.discount, _LAMBDA
         )
         taken = actions.clamp(max=network.num_interactions - 1).expand(len(logits), *actions.shape)
         values = network.values(beliefs, shares).gather(-1, taken[..., None])[..., 0]
@@ -103,6 +105,35 @@ class Belief(synchronous.SynchronousAgent):
             torch._foreach_lerp_(list(averaged.parameters()), list(network.parameters()), 1 - _EMA_DECAY)
         means = {"belief_loss": belief_loss.mean().item(), "value_loss": value_loss.mean().item()}
         return {**means, "gradient_norm": norm}
+
+    def _label_targets(
+        self, episodes: rounds.Round, held_out_logits: torch.Tensor
+    ) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
+        """Returns where questions end, bool [T, B], the targets of beliefs, and the steps that are learned from.
+
+        Targets are probabilities, [T, B, L], of the labels of the current question, and steps are bool [T, B]. The
+        logits are those of the held-out members' beliefs, [T, B, L].
+        """
+        actions, num_interactions = torch.from_numpy(episodes.actions), self.variables.network.num_interactions
+        played, is_last = torch.from_numpy(episodes.played), torch.from_numpy(episodes.is_last)
+        are_answers = played & (actions >= num_interactions)
+        are_ends, steps = are_answers | is_last, torch.arange(len(actions))[:, None]
+        ends = torch.where(are_ends, steps, len(actions) - 1).flip(0).cummin(0).values.flip(0)
+        at_end = ends, torch.arange(actions.shape[1])
+        num_questions = self._environment.num_questions
+        if self._config.answers_revealed and num_questions == 1:
+            answers = torch.from_numpy(episodes.answers)
+            labels = torch.nn.functional.one_hot(answers, held_out_logits.shape[-1]).float().expand_as(held_out_logits)
+            are_counted = played
+        else:  # Several questions have two labels each, so a reward reveals the right one.
+            left = torch.where(is_last, num_questions - are_answers.cumsum(0), 0)  # In the end, each costs 1.
+            answered, are_right = (
+                (actions - num_interactions).clamp(min=0),
+                torch.from_numpy(episodes.rewards) + left > 0,
+            )
+            labels = losses.label_posterior(held_out_logits[at_end], answered[at_end], are_right[at_end])
+            are_counted = played & are_answers[at_end]
+        return are_ends, labels, are_counted if self._config.every_step else are_counted & are_ends
 
     def _measure_changes(self, played: rounds.Round) -> None:
         """Updates the unit of inputs: their root mean square change since the start of the episode."""
@@ -129,24 +160,3 @@ class Belief(synchronous.SynchronousAgent):
         """Takes up what `save` returned, and plays the kept episodes again to have their observations."""
         super().restore(tensors)
         self.variables.episodes.restore(self._play, self.next_episode)
-
-
-def _label_targets(
-    episodes: rounds.Round, held_out_logits: torch.Tensor, num_interactions: int, config: config_lib.BeliefConfig
-) -> tuple[torch.Tensor, torch.Tensor]:
-    """Returns the targets of beliefs, probabilities [B, L], and the steps that are learned from, bool [T, B].
-
-    The logits are those of the held-out members' beliefs, [T, B, L].
-    """
-    lengths, each = torch.from_numpy(episodes.lengths), torch.arange(len(episodes.lengths))
-    last_actions = torch.from_numpy(episodes.actions)[lengths - 1, each]
-    are_counted = torch.from_numpy(episodes.played)
-    if config.answers_revealed:
-        answers = torch.from_numpy(episodes.answers)
-        labels = torch.nn.functional.one_hot(answers, held_out_logits.shape[-1]).float()
-    else:
-        answered = (last_actions - num_interactions).clamp(min=0)
-        are_right = torch.from_numpy(episodes.rewards.sum(axis=0)) > 0
-        labels = losses.label_posterior(held_out_logits[lengths - 1, each], answered, are_right)
-        are_counted = are_counted & (last_actions >= num_interactions)
-    return labels, are_counted if config.every_step else are_counted & torch.from_numpy(episodes.is_last)

@@ -15,23 +15,23 @@ def answer_values(beliefs: torch.Tensor) -> torch.Tensor:
 
 
 def label_posterior(logits: torch.Tensor, answers: torch.Tensor, are_right: torch.Tensor) -> torch.Tensor:
-    """Returns the probabilities of the labels, [B, L], after an answer and its reward, by Bayes' rule.
+    """Returns the probabilities of the labels, [..., L], after an answer and its reward, by Bayes' rule.
 
     The label of a right answer is known. After a wrong one the others keep their relative probabilities:
     `p[l] = b[l] / (1 - b[a])` for the labels other than the answer `a`. With these as targets, a step on the
     cross-entropy is one on the likelihood of the reward, `log b[a]` for +1 and `log(1 - b[a])` for -1 (expectation
     maximization: Dempster, Laird & Rubin, 1977); and it is the target of earlier steps too, which know less.
-    The logits, [B, L], are of the belief that the answers, int64 [B], were given with.
+    The logits, [..., L], are of the belief that the answers, int64 [...], were given with.
     """
-    answered = functional.one_hot(answers, logits.shape[1]).bool()
-    others = logits.masked_fill(answered, -torch.inf).softmax(dim=1)
-    return torch.where(are_right[:, None], answered.float(), others)
+    answered = functional.one_hot(answers, logits.shape[-1]).bool()
+    others = logits.masked_fill(answered, -torch.inf).softmax(dim=-1)
+    return torch.where(are_right[..., None], answered.float(), others)
 
 
 def belief_loss(logits: torch.Tensor, labels: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
     """Returns the mean cross-entropy, [K], over the steps that count, bool [K, T, B].
 
-    The logits are of the beliefs of K members, [K, T, B, L], and the labels are probabilities, [B, L].
+    The logits are of the beliefs of K members, [K, T, B, L], and the labels are probabilities, [T, B, L].
     """
     return _means(-(labels * logits.log_softmax(dim=-1)).sum(-1), are_counted)
 
@@ -62,15 +62,16 @@ def interaction_targets(
     (Watkins' Q(lambda): Watkins, 1989). The target of an interaction that ends the episode is its reward.
 
     `answering` is S and `interacting` max Q, [T, B]; `are_greedy` says where the interaction taken is that of max Q,
-    and `are_last` which step is the last of its episode, bool [T, B]. The rewards are of the last actions, [B].
+    and `are_last` which step is the last one for its question, bool [T, B]. The rewards, [T, B], are of these steps:
+    each question is valued as if it were the last one of its episode.
     """
     values = torch.where(are_last, answering, torch.maximum(answering, interacting))
     goes_on = are_greedy & (interacting > answering) & ~are_last
-    targets = rewards.expand_as(values).clone()
+    targets = rewards.clone()
     for step in range(len(values) - 2, -1, -1):
         traced = torch.lerp(values[step + 1], targets[step + 1], lambda_)
         following = torch.where(goes_on[step + 1], traced, values[step + 1])
-        targets[step] = torch.where(are_last[step], rewards, discount * following)
+        targets[step] = torch.where(are_last[step], rewards[step], discount * following)
     return targets
 
 

@@ -39,8 +39,8 @@ class Replay:
         # Memory is taken when something is written to it.
         self._inputs: np.ndarray = np.zeros((*steps, num_inputs), dtype)
         self.actions = torch.full(steps, -1, dtype=torch.int16)
-        self._rewards = np.zeros((num_rounds, num_environments), np.float32)
-        self._answers = np.zeros(self._rewards.shape, np.int64)
+        self._rewards = np.zeros(steps, np.float32)
+        self._answers = np.zeros((num_rounds, num_environments), np.int64)
 
     def add(self, played: rounds.Round, number: int) -> None:
         """Keeps the round `number`, with its inputs, in place of the one R rounds before."""
@@ -49,7 +49,8 @@ class Replay:
         self.actions[slot] = -1
         self.actions[slot, :length] = torch.from_numpy(np.where(played.played, played.actions, -1))
         self._inputs[slot, :length][played.played] = played.inputs.cpu().numpy()
-        self._rewards[slot] = played.rewards.sum(axis=0)
+        self._rewards[slot] = 0
+        self._rewards[slot, :length] = played.rewards
         self._answers[slot] = played.answers
 
     def restore(self, play: Callable[[int, acting.Choose], rounds.Round], num_rounds: int) -> None:
@@ -74,11 +75,9 @@ class Replay:
         lengths = (actions >= 0).sum(1)
         longest = lengths.max()
         steps, columns = np.nonzero(np.arange(longest)[:, None] < lengths)
-        rewards = np.zeros((longest, size), np.float32)
-        rewards[lengths - 1, np.arange(size)] = self._rewards[slots, environments]
         episodes = rounds.Round(
             actions.T[:longest].astype(np.int64).clip(min=0),
-            rewards,
+            self._rewards[slots, :, environments].T[:longest],
             lengths,
             self._answers[slots, environments],
             torch.from_numpy(self._inputs[slots[columns], steps, environments[columns]]),

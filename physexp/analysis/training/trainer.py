@@ -39,14 +39,10 @@ def make_agent(config: config_lib.TrainConfig) -> core.Agent:
 def check(config: config_lib.TrainConfig) -> None:
     """Raises ValueError if a run cannot be trained on this machine, before anything is written.
 
-    It names an unknown task, several questions for the belief learner, a GPU or an OpenGL library that is needed and
-    missing, or more workers than there is room for.
+    It names an unknown task, a GPU or an OpenGL library that is needed and missing, or more workers than there is room
+    for.
     """
     task, *_ = [suite.load_task(config.domain, config.task, options) for options in config.settings]
-    if config.agent.algorithm == "belief" and task.rules.num_questions > 1:
-        raise ValueError(
-            f"num_questions is {task.rules.num_questions}; give 1 to the belief learner, or another --agent"
-        )
     needs_gl = task.pixels
     try:
         if needs_gl:

@@ -78,6 +78,10 @@ class BatchEnvironment:
         return self.task.is_told
 
     @property
+    def num_questions(self) -> int:
+        return self.task.rules.num_questions
+
+    @property
     def correct_answers(self) -> np.ndarray:
         """Indices of the right labels of the current questions, int64 [B]; never observable."""
         return self.ledger.correct_answers
