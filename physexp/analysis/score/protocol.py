@@ -28,6 +28,7 @@ FIRST_VERSION = "v1"
 """Its scores are read and verified, too: they count from another floor, and leave out domains."""
 SEED = 2_000_003  # Of the environments, apart from those of training and of evaluation.
 PUBLIC = instances.Public(SEED)
+ENVIRONMENT_SEED = suite.environment_seed(SEED, 0)  # With it and an episode's index `suite.load` makes the instance.
 EPISODES, QUICK_EPISODES = 1_000, 100  # Of each task.
 MAX_EPISODES = 10_000
 
@@ -149,9 +150,9 @@ def floor(question: Question, at_once: float, version: str = VERSION) -> float:
     return ideal_base.floor(at_once, question.discount, question.step_limit - question.num_questions + 1)
 
 
-def load(question: Question) -> suite.Environment:
-    """Returns the environment of a task, with the public instances."""
-    seeded = {**question.options, "random": PUBLIC.seed_of(question.name, 0)}
+def load(question: Question, seed: int = SEED) -> suite.Environment:
+    """Returns the environment of a task, the first one of a batch with this seed; by default the public instances."""
+    seeded = {**question.options, "random": suite.environment_seed(seed, 0)}
     return suite.load(question.domain, question.task, seeded)
 
 
