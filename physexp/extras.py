@@ -6,6 +6,7 @@ import importlib.util
 EXTRAS = {
     "gymnasium": "gymnasium",
     "matplotlib": "figures",
+    "mcp": "mcp",
     "minari": "minari",
     "pandas": "analysis",
     "ray": "ray",

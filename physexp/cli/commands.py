@@ -1,6 +1,6 @@
 """The commands by name, in the order in which help lists them."""
 
-from physexp.cli import demo, doctor, experiments, export, ideal, instances, playing, score, sweep, tasks, train
+from physexp.cli import demo, doctor, experiments, export, ideal, instances, playing, score, serve, sweep, tasks, train
 
 COMMANDS = {
     "tasks": tasks.Tasks,
@@ -16,6 +16,7 @@ COMMANDS = {
     "verify": score.Verify,
     "leaderboard": score.Leaderboard,
     "export": export.Export,
+    "serve": serve.Serve,
     "sweep": sweep.Sweep,
     "reproduce": experiments.Reproduce,
     "report": experiments.Report,

@@ -14,6 +14,7 @@ from typing import IO, Any
 
 import numpy as np
 
+from physexp import suite
 from physexp.agents import files
 from physexp.analysis.data import lock, provenance
 from physexp.analysis.score import playing, protocol
@@ -56,11 +57,22 @@ class Run:
         (question,) = protocol.named([name])
         with contextlib.closing(protocol.load(question, seed)) as environment:
             for index in range(count):
-                kept = self._kept.get((question.name, index), ())
-                keep = functools.partial(self._write, task=question.name, episode=index)
-                episode = words.Episode(environment, index, level, digits, kept, keep)
+                episode = self.begin(question, environment, index, level, digits)
                 if not episode.is_over:
                     yield episode
+
+    def begin(
+        self,
+        question: protocol.Question,
+        environment: suite.Environment,
+        index: int,
+        level: str = "named",
+        digits: int | None = None,
+    ) -> words.Episode:
+        """Returns the episode of an index in a task, in an environment of the task; one that was begun goes on."""
+        kept = self._kept.get((question.name, index), ())
+        keep = functools.partial(self._write, task=question.name, episode=index)
+        return words.Episode(environment, index, level, digits, kept, keep)
 
     def tell(self, **facts: Any) -> None:
         """Keeps facts about the client's work since the last report, such as its tokens and their cost."""

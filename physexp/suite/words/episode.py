@@ -16,13 +16,15 @@ from PIL import Image
 from physexp import checks, suite
 from physexp.suite.words import telling
 
+TOOLS = ("rules", "observe", "experiment", "answer", "believe", "note")
+"""The names of the tools."""
+
 LEAST_BELIEF = 1e-6
 """The probability that a smaller one counts as in the log score."""
 
 _LONGEST = 10_000  # Characters of a text that is kept.
 _ROUNDING = 0.01  # By which the sum of stated probabilities may differ from 1.
-_TOOLS = ("rules", "observe", "experiment", "answer", "believe", "note")
-_CALL = re.compile(rf"^[^\w\n]*({'|'.join(_TOOLS)})\((?:\w+ *=)?(.*)\)[^\w\n]*$", re.MULTILINE)
+_CALL = re.compile(rf"^[^\w\n]*({'|'.join(TOOLS)})\((?:\w+ *=)?(.*)\)[^\w\n]*$", re.MULTILINE)
 _Parameters = ParamSpec("_Parameters")
 
 
@@ -107,7 +109,7 @@ class Episode:
     @property
     def tools(self) -> list[Callable[..., str]]:
         """The tools: methods with type hints and docstrings, from which frameworks make descriptions for a model."""
-        return [getattr(self, name) for name in _TOOLS]
+        return [getattr(self, name) for name in TOOLS]
 
     @property
     def is_over(self) -> bool:
@@ -243,7 +245,7 @@ class Episode:
         try:
             arguments, reply = self._do(name, args, kwargs)
         except Refusal as refusal:
-            known = name if name in _TOOLS else checks.shown(name)
+            known = name if name in TOOLS else checks.shown(name)
             self._note(call=known, arguments=checks.shown(kwargs or args), refused=str(refusal))
             raise
         self._note(call=name, arguments=arguments, reply=reply)
@@ -252,7 +254,7 @@ class Episode:
     def _do(self, name: Any, args: Sequence[Any], kwargs: Any) -> tuple[dict[str, Any], str]:
         """Calls a tool; returns its arguments by name and its reply."""
         try:
-            if not isinstance(name, str) or name not in _TOOLS:
+            if not isinstance(name, str) or name not in TOOLS:
                 raise Refusal(_unknown(name))
             method = getattr(Episode, name).__wrapped__
             try:
@@ -330,7 +332,7 @@ def _unknown(name: Any) -> str:
     """Returns why a call of no tool is refused."""
     if name == "":
         return "there is no call; write one in a line of its own, as in experiment(0)"
-    return f"there is no tool {checks.shown(name)}; call {', '.join(_TOOLS)}"
+    return f"there is no tool {checks.shown(name)}; call {', '.join(TOOLS)}"
 
 
 def _values(given: str) -> list[Any]:
