@@ -59,7 +59,7 @@ def played_alike(domain, task, count, digits=None, **options):
     return alike
 
 
-QUICK = ("which_is_heavier/features", "towers/fist_features", "threshold/features", "strings/features")
+QUICK = ("towers/fist_features", "crush/features", "threshold/features", "strings/features")
 TASKS = [
     pytest.param(domain, task, marks=[] if f"{domain}/{task}" in QUICK else [pytest.mark.long])
     for domain, task in suite.tagged("features")
@@ -68,11 +68,11 @@ TASKS = [
 
 @pytest.mark.parametrize("domain, task", TASKS)
 def test_the_ideal_plays_the_same_from_text_alone(domain, task):
-    assert played_alike(domain, task, 10) == 10
+    assert played_alike(domain, task, 5) == 5
 
 
 def test_the_ideal_plays_several_questions_the_same_from_text_alone():
-    assert played_alike("strings", "features", 10, questions="all", num_questions=4) == 10
+    assert played_alike("strings", "features", 5, questions="all", num_questions=4) == 5
 
 
 def test_two_decimals_are_too_few_for_towers():
@@ -118,9 +118,9 @@ def test_scripted_players_make_the_mistakes_that_their_scripts_say(player, kinds
 
 
 def test_a_player_that_is_greedy_for_information_is_ideal_where_each_push_halves_what_is_left(tmp_path):
-    found = run_with(tmp_path / "run", in_words.greedy("threshold", "features", num_instances=100), count=4)
-    assert [record["return"] for record in found] == [pytest.approx(0.95**3)] * 4  # log2(8) pushes, and the answer.
-    assert [record["log_scores"] for record in found] == [[0.0]] * 4
+    found = run_with(tmp_path / "run", in_words.greedy("threshold", "features", num_instances=60), count=2)
+    assert [record["return"] for record in found] == [pytest.approx(0.95**3)] * 2  # log2(8) pushes, and the answer.
+    assert [record["log_scores"] for record in found] == [[0.0]] * 2
 
 
 def test_a_run_that_broke_off_goes_on_where_it_was(tmp_path):
