@@ -61,7 +61,7 @@ async def play_at_random(client, task, generator):
     return await said(client, "answer", episode=handle, number=generator.randrange(counts[1]))
 
 
-def test_a_client_plays_every_task_over_streams_and_the_server_ends_with_it(tmp_path):
+def test_a_client_plays_every_task_and_the_server_ends_with_it(tmp_path):
     generator = random.Random(fresh_seed())
 
     async def play():
@@ -108,7 +108,7 @@ async def in_memory(folder):
             yield client
 
 
-def test_senseless_calls_are_refused_in_a_sentence_and_a_new_server_goes_on(tmp_path):
+def test_senseless_calls_are_refused_and_a_new_server_goes_on(tmp_path):
     generator = random.Random(fresh_seed())
     values = [0.5, True, None, "", "x" * 9999, [], {}, [[[]]], {"a": {"b": []}}, 10**400]
 

@@ -71,7 +71,7 @@ def test_digits_shorten_numbers():
     assert short == f"{float(exact):.3f}".rstrip("0") and len(exact) > 5 and none in "01"
 
 
-def test_neutral_names_are_used_alike_and_mean_nothing_and_numbers_have_no_names():
+def test_neutral_names_are_used_alike_and_mean_nothing():
     texts = {}
     for level in words.LEVELS:
         episode = begin(level=level)
@@ -190,7 +190,7 @@ def _junk(generator):
     )()
 
 
-def test_ten_thousand_senseless_calls_are_refused_in_a_sentence_or_do_as_they_say():
+def test_ten_thousand_senseless_calls_are_refused_in_a_sentence():
     seed = fresh_seed()
     generator, environment = random.Random(seed), suite.load("strings", "features", {"random": seed})
     names = [

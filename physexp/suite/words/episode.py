@@ -134,12 +134,12 @@ class Episode:
 
     @_tool
     def observe(self) -> str:
-        """Tells what can be read now, how many actions are left, and what an answer is worth. It costs nothing."""
+        """Tells the readings now, the number of actions so far, and the worth of an answer. It costs nothing."""
         return self._teller.told(self._timestep.observation)
 
     @_tool
     def experiment(self, number: int) -> str:
-        """Does an experiment, and tells what can be read after it.
+        """Does an experiment, and tells the readings after it.
 
         Args:
             number: The number of the experiment, as the rules list them.
@@ -224,9 +224,9 @@ class Episode:
         self._note(stopped=reason)
 
     def record(self) -> dict[str, Any]:
-        """Returns what rebuilds the episode so far, and its results.
+        """Returns the facts that rebuild the episode so far, and its results.
 
-        These are `seed`, `episode`, its index, `actions` and `times`; `level` and `digits`; the number of calls that
+        They are `seed`, `episode`, its index, `actions` and `times`; `level` and `digits`; the number of calls that
         were `refused`, the discounted `return`, and `log_scores`.
         """
         return {

@@ -9,7 +9,7 @@ from physexp.analysis.score import exporting, protocol, targets
 from physexp.suite import words
 
 
-def test_exported_conversations_are_episodes_in_words_with_the_best_beliefs(tmp_path):
+def test_exported_conversations_are_episodes_with_the_best_beliefs(tmp_path):
     questions = protocol.named(["strings/features", "threshold/features"])
     exporting.export(targets.find("ideal"), questions, 3, tmp_path / "exported", in_words=True)
     for question in questions:

@@ -94,7 +94,7 @@ def run_with(folder, player, name="threshold/features", count=10, **kwargs):
         # It begins with 4 N, where 16 N would tell most; the first push that moves the block tells the answer, and it
         # answers 4 N, which is mostly wrong.
         (in_words.pokes_everything, {"inferior", "late", "wrong"}),
-        # Where 4 N makes the block slide the answer is known then; elsewhere the same push tells nothing new, and it
+        # A block that slides with 4 N is known then; to another the same push tells nothing new, and it
         # answers 4 N, which is wrong, too early.
         (in_words.repeats_itself, {"inferior", "late", "uninformative", "early", "wrong"}),
     ],
@@ -117,7 +117,7 @@ def test_scripted_players_make_the_mistakes_that_their_scripts_say(player, kinds
     assert {kind for kind, cost in costs.items() if cost.max() > 1e-9} == kinds
 
 
-def test_a_player_that_is_greedy_for_information_is_ideal_where_each_push_halves_what_is_left(tmp_path):
+def test_a_player_that_is_greedy_for_information_halves_the_forces(tmp_path):
     found = run_with(tmp_path / "run", in_words.greedy("threshold", "features", num_instances=60), count=2)
     assert [record["return"] for record in found] == [pytest.approx(0.95**3)] * 2  # log2(8) pushes, and the answer.
     assert [record["log_scores"] for record in found] == [[0.0]] * 2
