@@ -71,7 +71,7 @@ def test_a_client_plays_every_task_and_the_server_ends_with_it(tmp_path):
             assert all(tool.description for tool in tools.values())
             for task in FEATURES:
                 assert "the episode is over" in await play_at_random(client, task, generator)
-            (server,) = psutil.Process().children()
+            (server,) = [child for child in psutil.Process().children() if "serve" in child.cmdline()]
             assert not server.net_connections()
             return server
 

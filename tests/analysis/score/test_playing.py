@@ -180,7 +180,7 @@ def test_the_command_scores_and_verifies(here):
     refused = commands.run(*words, "--output", folder, cwd=here)
     assert refused.stderr == f"physexp: {folder} exists and is not empty; give another --output\n"
     done = commands.run("verify", folder, cwd=here)
-    assert done.stdout == "OK: 3 episodes were played so, by halving:policy; score 1.0000\n"
+    assert done.stdout == "OK: 3 episodes were played so, by halving:policy; score threshold/features 1.0000\n"
     done = commands.run("verify", folder, "--json", cwd=here)
     played = {"episodes": 3, "actions": 12, "target": "halving:policy", "score": 1.0}
     assert json.loads(done.stdout) == played | {"complete": True}
