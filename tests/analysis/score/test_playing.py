@@ -182,8 +182,8 @@ def test_the_command_scores_and_verifies(here):
     done = commands.run("verify", folder, cwd=here)
     assert done.stdout == "OK: 3 episodes were played so, by halving:policy; score threshold/features 1.0000\n"
     done = commands.run("verify", folder, "--json", cwd=here)
-    played = {"episodes": 3, "actions": 12, "target": "halving:policy", "score": 1.0}
-    assert json.loads(done.stdout) == played | {"complete": True}
+    played = {"episodes": 3, "actions": 12, "target": "halving:policy", "scores": {"threshold/features": 1.0}}
+    assert json.loads(done.stdout) == played | {"complete": True, **protocol.PUBLIC.facts}
     refused = commands.run("verify", "nowhere", cwd=here)
     assert refused.stderr == (
         "physexp: nowhere holds no score (score.json); give a folder that `physexp score` has written\n"
