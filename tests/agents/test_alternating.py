@@ -36,7 +36,7 @@ def test_settings_that_one_network_cannot_play_are_refused():
         trainer.make_environment(make_config({}, {"num_blocks": 6}), seed=0, num_environments=2, num_threads=1)
 
 
-def test_a_run_stores_episodes_of_its_first_setting_and_says_how_it_was_trained(tmp_path):
+def test_a_run_stores_episodes_of_its_first_setting(tmp_path):
     config = make_config(*SETTINGS, frames=3_000)
     run = run_lib.Run(tmp_path / "run")
     trainer.train(run, start=config)

@@ -68,7 +68,7 @@ def test_all_text_of_a_score_is_shown_as_text(folder, tmp_path):
     assert "&lt;b&gt;&amp;;" in shown and "&lt;i&gt;" in shown and r"not complete: &lt;hr&gt;\x1b" in shown
 
 
-def test_a_score_of_the_first_version_is_verified_and_shown_in_numbers_of_this_one(folder, found, tmp_path):
+def test_a_score_of_the_first_version_is_verified_and_shown(folder, found, tmp_path):
     copied, asked = shutil.copytree(folder, tmp_path / "older"), protocol.named(TASKS)
     ideals = {one: scores.reference(one, found["protocol"]["episodes"]) for one in asked}
     metrics = scores.summary(scores.of_log(log.read(copied), ideals, "v1"), "v1")
