@@ -16,7 +16,7 @@ def cards() -> Iterator[Sequence[str]]:
     yield "an agent experiments", "question", "gamma"
     for domain, names in suite.TASKS_BY_DOMAIN.items():
         task = suite.load_task(domain, names[0])
-        words = domain.replace("_", " ").title()
+        words = domain.replace("_", " ").capitalize()
         yield f"![{words}, played by an agent]({domain}.gif)", f"**{words}.** {task.question}", f"{task.discount:g}"
 
 

@@ -158,7 +158,7 @@ def _instance(
 
 
 def _told(task: contract.Task, hidden: np.ndarray) -> list[list[list[float]]]:
-    """Returns what an episode tells, by the number of the question and that of steps taken."""
+    """Returns the values that an episode tells, by the number of the question and that of the steps taken."""
     steps, numbers = range(task.rules.step_limit + 1), range(task.rules.num_questions)
     return [[_flat(task.tell(hidden, np.array([asked]), np.array([step]))) for step in steps] for asked in numbers]
 
