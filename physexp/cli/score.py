@@ -54,7 +54,7 @@ class Score(Playing):
     )
     quick: bool = option(False, "100 episodes of each task instead of 1000")
     episodes: int | None = option(None, "number of episodes of each task")
-    instances: Path | None = option(None, "the file of private instances to play; by default the public ones are played")
+    instances: Path | None = option(None, "the file of private instances to play; by default, the public ones")
     algorithm: str | None = option(None, "how your agent was trained, for the report and the leaderboard")
     frames: int | None = option(None, "environment steps of its training")
     minutes: float | None = option(None, "duration of its training, min")
