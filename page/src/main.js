@@ -64,7 +64,7 @@ class Page {
     if (!names.includes(name)) throw new Error(`it has no task ${name}; choose from ${names.join(", ")}`);
     this.player?.close();
     const task = await taskOf(this.known[names.indexOf(name)].file);
-    const next = () => this.begin((this.episode + 1) % task.instances.length);
+    const next = () => this.begin((this.instance + 1) % task.instances.length);
     // A replay that a link tells is nobody's play.
     const onEnd = (record) => {
       if (!actions) records.add(record);
@@ -72,7 +72,7 @@ class Page {
     };
     this.player = new Player(this.root, this.mujoco, task, { onEnd, next });
     const played = records.all().filter((record) => record.task === task.name).length;
-    this.begin(episode ?? played % task.instances.length);
+    this.begin(episode === undefined ? played % task.instances.length : this.instanceOf(task, episode));
     for (const action of actions ?? []) {
       await new Promise((resolve) => setTimeout(resolve, PAUSE));
       await this.player.act(action);
@@ -80,9 +80,15 @@ class Page {
     actions = null;
   }
 
-  begin(episode) {
-    this.episode = episode;
-    this.player.begin(episode);
+  instanceOf(task, episode) {
+    const episodes = task.instances.map((each) => each.episode);
+    if (!episodes.includes(episode)) throw new Error(`it has no episode ${episode} of ${task.name}; choose from ${episodes.join(", ")}`);
+    return episodes.indexOf(episode);
+  }
+
+  begin(instance) {
+    this.instance = instance;
+    this.player.begin(instance);
     this.navigate();
   }
 
@@ -100,7 +106,7 @@ class Page {
     const count = records.all().length;
     this.bar.replaceChildren(
       chosen,
-      element("span", { textContent: `instance ${this.episode + 1} of ${task.instances.length}` }),
+      element("span", { textContent: `instance ${this.instance + 1} of ${task.instances.length}` }),
       element("a", { href: this.link, textContent: this.player.isOver ? "link to this replay" : "link to this instance" }),
       element("button", { textContent: `save ${count} record${count === 1 ? "" : "s"}`, disabled: !count, onclick: records.save }),
     );

@@ -50,8 +50,9 @@ export class Player {
     this.scene.renderer.dispose();
   }
 
-  begin(episode) {
-    const observation = this.world.reset(episode);
+  // Begins the instance at a place of the task's list.
+  begin(place) {
+    const observation = this.world.reset(place);
     this.seenSoFar = [observation];
     this.times = [];
     this.isBusy = false;
@@ -112,7 +113,7 @@ export class Player {
     this.show();
     this.onEnd(this.record());
     const label = world.actions.at(-1) - task.interactions.length;
-    for (const qpos of (label >= 0 && task.played_out[world.episode]?.[label]) || []) {
+    for (const qpos of (label >= 0 && task.played_out[world.place]?.[label]) || []) {
       await new Promise((resolve) => setTimeout(resolve, FILM_FRAME));
       if (world.judged.over === false) return;
       this.pose = world.truth(qpos);
@@ -122,7 +123,7 @@ export class Player {
 
   record() {
     const { task, world, times } = this;
-    return { task: task.name, seed: task.seed, episode: world.episode, actions: [...world.actions], times: [...times] };
+    return { task: task.name, seed: task.seed, episode: world.instance.episode, actions: [...world.actions], times: [...times] };
   }
 
   // The scene.
@@ -293,7 +294,7 @@ export class Player {
 
   show() {
     const { task, world } = this;
-    const { instance, episode, actions, judged } = world;
+    const { instance, actions, judged } = world;
     const count = task.interactions.length;
     const moves = (name, taken) => {
       const found = judge(task, instance, taken);

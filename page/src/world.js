@@ -33,10 +33,10 @@ export class World {
     }
   }
 
-  reset(episode) {
-    const instance = this.task.instances[episode];
+  reset(place) {
+    const instance = this.task.instances[place];
     const structure = this.task.structures[instance.structure];
-    Object.assign(this, { episode, instance, structure });
+    Object.assign(this, { place, instance, structure });
     this.compile(instance.structure);
     for (const [field, addresses, values] of instance.fields) {
       const array = this.model[field];

@@ -136,7 +136,7 @@ class Page:
         count = checks.integer("instances", self.instances, 1, page.MOST_INSTANCES)
         seed = protocol.ENVIRONMENT_SEED if self.seed is None else self.seed
         names = self.tasks or [f"{domain}/{task}" for domain, task in suite.tagged("features")]
-        tasks = page.prepare(protocol.named(names), count, seed, printing.tell)
+        tasks = page.prepare(protocol.named(names), range(count), seed, printing.tell)
         write = page.write_single if self.single_file else page.write
         printing.tell(f"wrote {write(self.folder, tasks)}")
 

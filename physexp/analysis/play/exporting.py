@@ -4,7 +4,7 @@ Numbers are exact, so the page computes the same readings as Python. It judges b
 Python plays the actions again.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 import contextlib
 from typing import Any
 
@@ -25,8 +25,8 @@ Data = dict[str, Any]
 """Values that JSON has."""
 
 
-def export(question: protocol.Question, num_instances: int, seed: int = protocol.ENVIRONMENT_SEED) -> Data:
-    """Returns a task with its first instances, as the environment of a seed makes them.
+def export(question: protocol.Question, numbers: Sequence[int], seed: int = protocol.ENVIRONMENT_SEED) -> Data:
+    """Returns a task with the instances of some episodes, by their numbers, as the environment of a seed makes them.
 
     Raises ValueError if it observes pixels, reveals the answer, or has a function that is no expression of arrays.
     """
@@ -35,9 +35,9 @@ def export(question: protocol.Question, num_instances: int, seed: int = protocol
         raise ValueError(f"{question.name} observes pixels, which a page cannot draw bit for bit; give a features task")
     if task.options.reveal:
         raise ValueError(f"{question.name} reveals the answers, which is to check a learner; leave out reveal")
-    ledger = episodes.Ledger(task, num_instances)
-    ledger.seeds[:], ledger.next_episodes[:] = seed, np.arange(num_instances)
-    ledger.begin(np.arange(num_instances))
+    ledger = episodes.Ledger(task, len(numbers))
+    ledger.seeds[:], ledger.next_episodes[:] = seed, numbers
+    ledger.begin(np.arange(len(numbers)))
     apparatuses = {each: task.build_apparatus(each) for each in np.unique(ledger.structures).tolist()}
     apparatus = next(iter(apparatuses.values()))
     with _refusing(question.name):
@@ -56,8 +56,10 @@ def export(question: protocol.Question, num_instances: int, seed: int = protocol
         "seed": seed,
         **rules,
         "structures": {str(each): _structure(task, each, built) for each, built in apparatuses.items()},
-        "instances": [_instance(task, ledger, apparatuses, index) for index in range(num_instances)],
-        "played_out": _played_out(question, num_instances, seed),
+        "instances": [
+            {"episode": number, **_instance(task, ledger, apparatuses, index)} for index, number in enumerate(numbers)
+        ],
+        "played_out": _played_out(question, numbers, seed),
     }
 
 
@@ -185,13 +187,13 @@ def _noise(task: contract.Task, ledger: episodes.Ledger, index: int) -> list[dic
     return found
 
 
-def _played_out(question: protocol.Question, num_instances: int, seed: int) -> list[list[list[list[float]]]]:
+def _played_out(question: protocol.Question, numbers: Sequence[int], seed: int) -> list[list[list[list[float]]]]:
     """Returns the coordinates to which each label leads in each instance, [instances][labels][frames][nq], for eyes."""
     environment = suite.load(question.domain, question.task, {**question.options, "random": seed})
     task, found = environment.task, []
     stride = max(1, round(_FRAME / task.physics_timestep))
-    for index in range(num_instances):
-        task.next_episode = index
+    for number in numbers:
+        task.next_episode = number
         environment.reset()
         films = []
         for label in range(len(question.label_names)):

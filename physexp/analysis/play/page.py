@@ -31,18 +31,19 @@ _LARGEST_RECORD = 1_000_000  # Bytes.
 
 def prepare(
     questions: Sequence[protocol.Question],
-    num_instances: int = INSTANCES,
+    numbers: Sequence[int] = range(INSTANCES),
     seed: int = protocol.ENVIRONMENT_SEED,
     tell: callbacks.Tell = callbacks.ignore,
 ) -> dict[str, exporting.Data]:
     """Returns tasks as data by the names of their files, with the moves of the other players on each instance.
 
-    Raises ValueError as `exporting.export`. `tell` is called with a line for each task.
+    Their instances are those of the episodes with these numbers. Raises ValueError as `exporting.export`. `tell` is
+    called with a line for each task.
     """
     found = {}
     for question in questions:
-        data = exporting.export(question, num_instances, seed)
-        played = _played(question, num_instances, seed)
+        data = exporting.export(question, numbers, seed)
+        played = _played(question, numbers, seed)
         for index, instance in enumerate(data["instances"]):
             instance["others"] = {name: moves[index] for name, moves in played.items()}
         found[question.file_name] = data
@@ -50,15 +51,15 @@ def prepare(
     return found
 
 
-def _played(question: protocol.Question, num_instances: int, seed: int) -> dict[str, list[list[int]]]:
-    """Returns the actions of the other players in the first instances."""
+def _played(question: protocol.Question, numbers: Sequence[int], seed: int) -> dict[str, list[list[int]]]:
+    """Returns the actions of the other players in some episodes."""
     found = {}
     players = others.players(question.domain, question.task, dict(question.options))
     with contextlib.closing(
         suite.load(question.domain, question.task, {**question.options, "random": seed})
     ) as environment:
         for name in sorted(players, key=list(_NAMES).index):
-            loop = [episodes.play(environment, players[name], index) for index in range(num_instances)]
+            loop = [episodes.play(environment, players[name], number) for number in numbers]
             found[_NAMES[name]] = [episode.actions.tolist() for episode in loop]
     return found
 

@@ -32,13 +32,14 @@ OPTIONS = [
     "sealed_box/features,step_variation=0.5",
 ]
 TASKS = [f"{domain}/{task}" for domain, task in suite.tagged("features")] + OPTIONS
+EPISODES = [0, 1, 57]
 SHORT = 6  # Actions, after which contacts still give equal numbers to 1e-9.
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     """A page with two tasks, in one file."""
-    tasks = page.prepare(protocol.named(["threshold/features", "strings/features"]), 3)
+    tasks = page.prepare(protocol.named(["threshold/features", "strings/features"]), EPISODES)
     return tasks, page.write_single(tmp_path_factory.mktemp("page") / "page.html", tasks)
 
 
@@ -97,7 +98,7 @@ def test_the_page_observes_the_same_bits_as_python_and_judges_as_it_does(name, t
 
     lasts = [generator.integers(1, SHORT + 1) if has_contacts or k % 2 else question.step_limit for k in range(4)]
     played = [python_plays(environment, k, lambda step, last=last: choose(step, last)) for k, last in enumerate(lasts)]
-    asked = {"task": exporting.export(question, len(played)), "played": [actions for actions, *_ in played]}
+    asked = {"task": exporting.export(question, range(len(played))), "played": [actions for actions, *_ in played]}
     for (_, values, rewards), found in zip(played, tab.evaluate(PLAY % json.dumps(asked)), strict=True):
         seen = np.array([np.frombuffer(bytes.fromhex(each), np.float32) for each in found["seen"]])
         np.testing.assert_allclose(seen, values, rtol=0, atol=1e-9 if has_contacts else 0)
@@ -109,7 +110,7 @@ def test_the_page_observes_the_same_bits_as_python_and_judges_as_it_does(name, t
 @pytest.mark.parametrize(("name", "actions"), [("strings/features", [0, 1, 2]), ("threshold/features", [3, 1, 5])])
 def test_nothing_drawn_before_the_answer_tells_more_than_the_readings(name, actions, tab):
     (question,) = protocol.named([name])
-    data = exporting.export(question, 24)
+    data = exporting.export(question, range(24))
     data["played_out"] = []
     found = tab.evaluate(PLAY % json.dumps({"task": data, "played": [actions] * 24}))
     pairs = 0
@@ -159,17 +160,27 @@ def test_a_link_replays_an_episode_and_records_nothing(made, tab):
     tasks, path = made
     before = tab.evaluate("localStorage.physexp ?? ''")
     ideal = tasks["strings-features"]["instances"][2]["others"]["the ideal"]
-    begin(tab, path, f"task=strings/features&episode=2&actions={','.join(map(str, ideal))}")
+    begin(tab, path, f"task=strings/features&episode={EPISODES[2]}&actions={','.join(map(str, ideal))}")
     assert tab.evaluate("physexp.player.world.judged.rewards.at(-1)") == 1
+    assert tab.evaluate("physexp.player.record().episode") == EPISODES[2]
     assert tab.evaluate("location.href") in tab.evaluate("physexp.link").replace("%3A", ":")
     assert tab.evaluate("localStorage.physexp ?? ''") == before
 
 
-def test_a_link_to_a_task_that_the_page_lacks_lists_those_that_it_has(made, tab):
-    tab.open(f"{made[1].as_uri()}?task=strings/features,num_pucks=4")
+@pytest.mark.parametrize(
+    ("query", "said"),
+    [
+        (
+            "task=strings/features,num_pucks=4",
+            "no task strings/features,num_pucks=4; choose from threshold/features, strings/features",
+        ),
+        ("task=strings/features&episode=2", "no episode 2 of strings/features; choose from 0, 1, 57"),
+    ],
+)
+def test_a_link_to_what_the_page_lacks_lists_what_it_has(query, said, made, tab):
+    tab.open(f"{made[1].as_uri()}?{query}")
     tab.wait("document.body?.dataset.state == 'failed'")
-    told = tab.evaluate("document.querySelector('main').textContent")
-    assert told.endswith("no task strings/features,num_pucks=4; choose from threshold/features, strings/features")
+    assert tab.evaluate("document.querySelector('main').textContent").endswith(said)
     tab.errors.clear()
 
 

@@ -18,14 +18,14 @@ def test_a_task_that_is_no_expression_of_arrays_is_refused_by_name(monkeypatch):
     monkeypatch.setattr(type(task), "drive", drive)
     message = "^crush/features cannot be played in a browser: its drive is no expression of arrays that can be traced: "
     with pytest.raises(ValueError, match=f"{message}.*tolist"):
-        exporting.export(question, 1)
+        exporting.export(question, range(1))
 
 
 def test_pixels_and_revealed_answers_are_refused():
     with pytest.raises(ValueError, match="^crush/pixels observes pixels"):
-        exporting.export(protocol.question("crush", "pixels"), 1)
+        exporting.export(protocol.question("crush", "pixels"), range(1))
     with pytest.raises(ValueError, match="^crush/features,reveal=True reveals the answers"):
-        exporting.export(protocol.question("crush", "features", {"reveal": True}), 1)
+        exporting.export(protocol.question("crush", "features", {"reveal": True}), range(1))
 
 
 def written(values):
