@@ -11,7 +11,7 @@ import numpy as np
 
 from physexp.agents import files
 from physexp.analysis.data import plots, provenance, text
-from physexp.analysis.score import log, protocol, report, scores, scoring, verifying
+from physexp.analysis.score import log, protocol, replays, report, scores, scoring, verifying
 
 FOLDER = "scores"
 NAME = "leaderboard"
@@ -21,11 +21,12 @@ _COLORS = (*plots.COLORS[1:], "#CC79A7", "#7F4F24")
 
 @dataclasses.dataclass(frozen=True)
 class Row:
-    """A folder's name, its scores in the tracks that it plays (see `scores.over`), and its `score.json`."""
+    """A folder's name, its scores in the tracks that it plays, its `score.json`, and its costliest mistakes."""
 
     name: str
     tracks: Mapping[str, Mapping[str, Any]]
     found: Mapping[str, Any]
+    mistakes: Sequence[replays.Replay]
 
     def told(self, fact: str) -> str:
         """Returns the values of a fact of its agents, in words; empty if they do not tell."""
@@ -78,8 +79,9 @@ def _row(folder: Path, verify: Callable[[Path], None]) -> Row:
     if others := [name for name in extent["tasks"] or ["no task"] if name not in names]:
         raise ValueError(f"{folder} is of {others[0]}; a row is of {', '.join(names)}")
     verify(folder)
-    played = scores.of_log(log.read(folder), dict.fromkeys(questions), num_agents=extent["agents"])
-    return Row(folder.name, scores.over_tracks(played), found)
+    logged = log.read(folder)
+    played = scores.of_log(logged, dict.fromkeys(questions), num_agents=extent["agents"])
+    return Row(folder.name, scores.over_tracks(played), found, replays.costliest(logged, questions))
 
 
 def write(results: Path, show: Callable[[int], None] = lambda done: None) -> tuple[list[Path], list[str]]:

@@ -72,6 +72,22 @@ def test_rows_are_sorted_by_score_and_unplayed_tasks_count_as_0(results):
     assert cells["domains played |"] == f"2 of {len(of_domains)} |"
 
 
+def test_a_row_links_to_the_costliest_mistake_of_each_domain(results):
+    part = leaderboard.markdown(leaderboard.read(results)[0]).partition("## Costliest mistakes")[2].partition("##")[0]
+    assert "| ideal |" not in part  # It makes none.
+    links = re.findall(r"\[(\w+): (\w+)\]\(\.\./docs/_build/html/play\.html\?([^)]*)\) ([\d.]+)", part)
+    logged, found = log.read(results / "scores" / "random").to_pandas(), {}
+    for question in BOTH:
+        its = logged[logged.domain == question.domain]
+        costs = its.regret * question.discount**its.step
+        at = costs.idxmax()
+        actions = ",".join(map(str, its[its.episode == its.episode[at]].action))
+        query = {"task": question.name, "episode": str(its.episode[at]), "actions": actions}
+        found[costs[at]] = question.domain, its.mistake[at], query, f"{costs[at]:.3f}"
+    shown = [(domain, kind, dict(parse.parse_qsl(html.unescape(query))), cost) for domain, kind, query, cost in links]
+    assert shown == [found[cost] for cost in sorted(found, reverse=True)]
+
+
 def test_a_forged_row_is_named_and_the_others_are_shown(copied):
     results, folder = copied
     rows = log.read(folder).to_pandas()
