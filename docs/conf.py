@@ -16,6 +16,7 @@ extensions = [
     "from_code",
     "myst_nb",
     "plan_tables",
+    "play_page",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",

@@ -5,6 +5,7 @@ import dataclasses
 
 from docutils import nodes
 from docutils.statemachine import StringList
+import play_page
 from sphinx.util.docutils import SphinxDirective
 import structure
 
@@ -17,7 +18,9 @@ def cards() -> Iterator[Sequence[str]]:
     for domain, names in suite.TASKS_BY_DOMAIN.items():
         task = suite.load_task(domain, names[0])
         words = domain.replace("_", " ").capitalize()
-        yield f"![{words}, played by an agent]({domain}.gif)", f"**{words}.** {task.question}", f"{task.discount:g}"
+        picture = f"![{words}, played by an agent]({domain}.gif)"
+        link = f'<a href="{play_page.NAME}?task={domain}/{names[0]}">Play it</a>'
+        yield picture, f"**{words}.** {task.question} {link}", f"{task.discount:g}"
 
 
 def tasks() -> Iterator[Sequence[str]]:

@@ -10,13 +10,17 @@ import pytest
 from seeds import fresh_seed
 
 from physexp import suite
+from physexp.agents import environment_loop
+from physexp.analysis.data import episodes
 from physexp.analysis.experiments import base, reproduce
+from physexp.analysis.score import protocol
 
 DOCS = Path(__file__).parent.parent / "docs"
-sys.path.insert(0, str(DOCS / "examples"))
+sys.path[:0] = [str(DOCS), str(DOCS / "examples")]
 
 import bolted  # noqa: E402
 import haste  # noqa: E402
+import play_page  # noqa: E402
 import poke_all  # noqa: E402
 import train_bolted  # noqa: E402
 
@@ -53,6 +57,24 @@ def test_the_index_lists_every_page_and_the_pages_show_every_example():
     assert {page.stem for page in pages()} - {"index"} == listed
     text = "".join(page.read_text() for page in pages())
     assert all(f"examples/{example.name}" in text for example in (DOCS / "examples").glob("*.py"))
+
+
+def test_the_page_beside_the_pages_has_every_replay_of_the_leaderboard():
+    tasks, replays = play_page.tasks(), play_page.replays()
+    assert {f"{domain}/{task}" for domain, task in suite.tagged("features")} <= {
+        data["name"] for data in tasks.values()
+    }
+    assert len(replays) > 10
+    environments = {data["name"]: protocol.load(*protocol.named([data["name"]])) for data in tasks.values()}
+    instances = {(data["name"], each["episode"]): each for data in tasks.values() for each in data["instances"]}
+    for replay in replays:
+        actions, number = [int(action) for action in replay["actions"].split(",")], int(replay["episode"])
+        played = episodes.play(environments[replay["task"]], environment_loop.Repeat(actions), number)
+        instance = instances[replay["task"], number]
+        assert played.actions.tolist() == actions and instance["answers"] == played.answers.tolist()
+        assert instance["others"]["the ideal"] != actions
+    for environment in environments.values():
+        environment.close()
 
 
 def test_only_pulling_is_informative_in_the_example_task():
