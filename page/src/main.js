@@ -67,17 +67,16 @@ class Page {
     const next = () => this.begin((this.instance + 1) % task.instances.length);
     // A replay that a link tells is nobody's play.
     const onEnd = (record) => {
-      if (!actions) records.add(record);
+      if (!this.player.isReplay) records.add(record);
       this.navigate();
     };
     this.player = new Player(this.root, this.mujoco, task, { onEnd, next });
     const played = records.all().filter((record) => record.task === task.name).length;
-    this.begin(episode === undefined ? played % task.instances.length : this.instanceOf(task, episode));
+    this.begin(episode === undefined ? played % task.instances.length : this.instanceOf(task, episode), Boolean(actions));
     for (const action of actions ?? []) {
       await new Promise((resolve) => setTimeout(resolve, PAUSE));
       await this.player.act(action);
     }
-    actions = null;
   }
 
   instanceOf(task, episode) {
@@ -86,9 +85,9 @@ class Page {
     return episodes.indexOf(episode);
   }
 
-  begin(instance) {
+  begin(instance, isReplay = false) {
     this.instance = instance;
-    this.player.begin(instance);
+    this.player.begin(instance, isReplay);
     this.navigate();
   }
 

@@ -51,7 +51,8 @@ export class Player {
   }
 
   // Begins the instance at a place of the task's list.
-  begin(place) {
+  begin(place, isReplay = false) {
+    this.isReplay = isReplay;
     const observation = this.world.reset(place);
     this.seenSoFar = [observation];
     this.times = [];
@@ -313,8 +314,8 @@ export class Player {
     const others = Object.entries(instance.others ?? {}).map(([name, taken]) => moves(name, taken));
     this.result.replaceChildren(
       element("h2", { className: isRight ? "right" : "wrong", textContent: `${isRight ? "\u2713" : "\u2717"} ${verdict}: ${answers}` }),
-      element("p", { textContent: `You earn ${worth(judged.earned)}.` }),
-      element("table", {}, moves("you", actions), ...others),
+      element("p", { textContent: `${this.isReplay ? "It earns" : "You earn"} ${worth(judged.earned)}.` }),
+      element("table", {}, moves(this.isReplay ? "replay" : "you", actions), ...others),
       ...(next ? [next] : []),
     );
     this.result.hidden = false;

@@ -165,6 +165,7 @@ def test_a_link_replays_an_episode_and_records_nothing(made, tab):
     assert tab.evaluate("physexp.player.record().episode") == EPISODES[2]
     assert tab.evaluate("location.href") in tab.evaluate("physexp.link").replace("%3A", ":")
     assert tab.evaluate("localStorage.physexp ?? ''") == before
+    assert tab.evaluate("document.querySelector('.result table').innerText").startswith("replay")
 
 
 @pytest.mark.parametrize(
