@@ -14,8 +14,8 @@ import psutil
 import pytest
 from seeds import fresh_seed
 
-from physexp import suite
-from physexp.analysis.score import protocol, serving, transcripts
+from physexp import cli, suite
+from physexp.analysis.score import instances, protocol, records, serving, transcripts
 
 ARGUMENTS = ["-m", "physexp.cli", "serve"]
 FEATURES = ["/".join(names) for names in suite.tagged("features")]
@@ -136,6 +136,45 @@ def test_senseless_calls_are_refused_and_a_new_server_goes_on(tmp_path):
             return await said(client, "begin", task="strings/features")
 
     assert "all 2 episodes of strings/features have begun" in anyio.run(go_on, anyio.run(play))
+
+
+def test_private_instances_are_judged_and_nothing_tells_their_key(tmp_path, monkeypatch, capsys):
+    private = instances.draw()
+    instances.write(tmp_path / "secret.json", private, protocol.VERSION)
+    (question,) = protocol.named(["threshold/features"])
+    folder, replies = tmp_path / "run", []
+
+    async def play():
+        chosen = ("--episodes", "2", "--instances", str(tmp_path / "secret.json"))
+        async with over_streams(folder, question.name, *chosen) as client:
+            for _ in range(2):
+                handle, text = await begun(client, question.name)
+                calls = [("experiment", 3), ("experiment", 8), ("answer", 0)]
+                told = [await said(client, tool, episode=handle, number=number) for tool, number in calls]
+                replies.extend([text, await said(client, "answer", number=0, episode=private.key_hash), *told])
+
+    anyio.run(play)
+    environment, seeds = protocol.load(question), [private.seed_of(question.name, index) for index in range(2)]
+    for index, seed in enumerate(seeds):
+        environment.task.reseed(seed)
+        environment.task.next_episode = index
+        environment.reset()
+        assert f"The right answer is {environment.task.correct_answer}," in replies[5 * index + 4]
+    path = folder / transcripts.RECORDS
+    assert [json.loads(line)["key_hash"] for line in path.read_text().splitlines()] == [private.key_hash] * 2
+    kept = [path.read_text(), (folder / transcripts.TRANSCRIPT).read_text(), *replies]
+    assert not [secret for secret in (private.key, *map(str, seeds), '"seed"') for text in kept if secret in text]
+
+    (known, other), _ = records.read(path, private)
+    assert [known.seed, other.seed] == seeds
+    arguments = ["score", "--records", str(path), "--instances", str(tmp_path / "secret.json"), "--json"]
+    monkeypatch.setattr(sys, "argv", ["physexp", *arguments])
+    cli.main()
+    assert json.loads(capsys.readouterr().out)["not told"][question.name]["episodes"] == 2
+    with pytest.raises(ValueError, match=f"line 1: key_hash, .* is '{private.key_hash}'; give their --instances FILE"):
+        records.read(path)
+    with pytest.raises(ValueError, match=f"is '{private.key_hash}'; that of the instances is "):
+        records.read(path, instances.draw())
 
 
 def test_the_extra_is_named_where_it_is_missing(monkeypatch):

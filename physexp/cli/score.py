@@ -54,7 +54,7 @@ class Score(Playing):
     )
     quick: bool = option(False, "100 episodes of each task instead of 1000")
     episodes: int | None = option(None, "number of episodes of each task")
-    instances: Path | None = option(None, "the file of private instances to play; by default, the public ones")
+    instances: Path | None = option(None, "the file of private instances, also of records; by default, the public ones")
     algorithm: str | None = option(None, "how your agent was trained, for the report and the leaderboard")
     frames: int | None = option(None, "environment steps of its training")
     minutes: float | None = option(None, "duration of its training, min")
@@ -65,7 +65,7 @@ class Score(Playing):
     def run(self) -> None:
         """Plays, judges, writes the report and prints the score."""
         if self.records is not None and self.target is None:
-            _score_records(self.records, self.json)
+            _score_records(self.records, self.instances, self.json)
             return
         if self.records is not None or self.target is None:
             raise ValueError("give a target, or --records FILE; see physexp score --help")
@@ -135,12 +135,13 @@ def _write_report(folder: Path) -> None:
         ) from None
 
 
-def _score_records(path: Path, as_json: bool) -> None:
+def _score_records(path: Path, private: Path | None, as_json: bool) -> None:
     """Plays a file of records again and prints the score of each player in each task."""
-    from physexp.analysis.score import records
+    from physexp.analysis.score import instances, protocol, records
     from physexp.analysis.training import progress
 
-    read, num_left_out = records.read(path)
+    which = None if private is None else instances.read(private, protocol.VERSION)
+    read, num_left_out = records.read(path, which)
     with progress.bar("records", len(read)) as show:
         found = records.score(read, show)
     if num_left_out:

@@ -25,19 +25,19 @@ class Serve:
     budget: str = option("not told", "its limits, such as tokens for each episode")
     level: Literal["named", "neutral", "anonymous"] = option("named", "how much the texts tell: names, or none")
     digits: int | None = option(None, "decimals of readings; by default all that float32 has")
-    seed: int | None = option(None, "seed of the environments; by default the score's")
+    instances: Path | None = option(None, "the file of private instances to play; by default, the public ones")
     http: int | None = option(None, "serve HTTP at this port of 127.0.0.1 instead; 0 for any that is free", "PORT")
 
     def run(self) -> None:
         """Serves until the client or the user ends it."""
         extras.require("mcp")
-        from physexp.analysis.score import protocol, serving, transcripts
+        from physexp.analysis.score import instances, protocol, serving, transcripts
 
         facts = {name: getattr(self, name) for name in ("model", "harness", "tools", "budget")}
-        seed = protocol.SEED if self.seed is None else self.seed
+        which = protocol.PUBLIC if self.instances is None else instances.read(self.instances, protocol.VERSION)
         questions, count = protocol.named(self.tasks), self.episodes or transcripts.EPISODES
-        with transcripts.run(self.output, **facts) as run:
-            desk = serving.Desk(run, questions, count, seed=seed, level=self.level, digits=self.digits)
+        with transcripts.run(self.output, instances=which, **facts) as run:
+            desk = serving.Desk(run, questions, count, level=self.level, digits=self.digits)
             if self.http is None:
                 serving.over_streams(desk)
             else:

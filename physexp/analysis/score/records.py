@@ -1,7 +1,8 @@
 """Records of play by people, language models and others: reads them, plays them again in Python, and judges them.
 
-A record is a line of JSON: `player`, `task`, `seed` (of the environment), `episode`, `actions`, `times` (ms, one for
-each action), and further fields. Records come in any order, of any seeds and episodes, and of several players.
+A record is a line of JSON: `player`, `task`, `seed` (of the environment; the `key_hash` of private instances instead),
+`episode`, `actions`, `times` (ms, one for each action), and further fields. Records come in any order, of any seeds and
+episodes, and of several players.
 """
 
 from collections import defaultdict
@@ -16,7 +17,7 @@ from physexp import checks, suite
 from physexp.agents import environment_loop
 from physexp.analysis.data import episodes
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import judging, log, protocol, scores
+from physexp.analysis.score import instances, judging, log, protocol, scores
 from physexp.suite.engine import seeding
 
 _LARGEST = 2**28  # Bytes of a file.
@@ -42,24 +43,25 @@ class Record:
     place: str
 
 
-def read(path: Path) -> tuple[list[Record], int]:
+def read(path: Path, private: instances.Private | None = None) -> tuple[list[Record], int]:
     """Returns the first record of each player, task and instance, and the number of the others.
 
-    Raises ValueError for a file without records, and for the first line that is none.
+    All are of the private instances, if some are given. Raises ValueError for a file without records, and for the first
+    line that is none.
     """
     if path.stat().st_size > _LARGEST:
         raise ValueError(f"{path} has more than {_LARGEST:,} bytes; give parts of it")
     found: dict[Any, Record] = {}
     lines = [(number, line) for number, line in enumerate(path.read_bytes().splitlines(), 1) if line.strip()]
     for number, line in lines:
-        record = _record(f"{path}, line {number}", line)
+        record = _record(f"{path}, line {number}", line, private)
         found.setdefault((record.player, record.question, record.seed, record.episode), record)
     if not found:
         raise ValueError(f"{path} has no records; give a file with a line of JSON for each episode")
     return list(found.values()), len(lines) - len(found)
 
 
-def _record(place: str, line: bytes) -> Record:
+def _record(place: str, line: bytes, private: instances.Private | None) -> Record:
     try:
         fields = json.loads(line)
     except ValueError:
@@ -71,12 +73,16 @@ def _record(place: str, line: bytes) -> Record:
             raise ValueError(f"{place}: {name} is {checks.shown(fields.get(name))}; give a {kind.__name__}")
     if len(fields["times"]) != len(fields["actions"]):
         raise ValueError(f"{place} has {len(fields['times'])} times for {len(fields['actions'])} actions; give as many")
+    if (given := fields.get("key_hash")) != (private and private.key_hash):
+        wanted = "give their --instances FILE" if private is None else f"that of the instances is {private.key_hash}"
+        raise ValueError(f"{place}: key_hash, which names private instances, is {checks.shown(given)}; {wanted}")
     try:
         (question,) = protocol.named([fields["task"]])
-        seed = checks.integer("seed", fields.get("seed"), 0, seeding.LARGEST_SEED)
         episode = checks.integer("episode", fields.get("episode"), 0, seeding.LAST_EPISODE)
         allowed = question.num_actions - 1
         actions = tuple(checks.integer("an action", action, 0, allowed) for action in fields["actions"])
+        given = fields.get("seed") if private is None else private.seed_of(question.name, episode)
+        seed = checks.integer("seed", given, 0, seeding.LARGEST_SEED)
     except ValueError as error:
         raise ValueError(f"{place}: {error}") from None
     return Record(fields["player"], question, seed, episode, actions, place)

@@ -46,12 +46,11 @@ class Desk:
         questions: Sequence[protocol.Question],
         count: int = transcripts.EPISODES,
         *,
-        seed: int = protocol.SEED,
         level: str = "named",
         digits: int | None = None,
     ):
         """Takes the run that keeps the episodes, and the tasks; the others are as for `transcripts.Run.episodes`."""
-        self._run, self._count, self._seed, self._told = run, count, seed, (level, digits)
+        self._run, self._count, self._told = run, count, (level, digits)
         self._questions = {question.name: question for question in questions}
         self._begun = dict.fromkeys(self._questions, 0)
         self._playing: dict[str, list[words.Episode]] = {name: [] for name in self._questions}
@@ -106,7 +105,7 @@ class Desk:
             if episode.is_over:
                 playing.remove(episode)
                 return episode.environment
-        return protocol.load(question, self._seed)
+        return protocol.load(question)
 
 
 def over_streams(desk: Desk) -> None:

@@ -17,6 +17,7 @@ import numpy as np
 from physexp import suite
 from physexp.agents import files
 from physexp.analysis.data import lock, provenance
+from physexp.analysis.score import instances as instances_lib
 from physexp.analysis.score import playing, protocol
 from physexp.suite import words
 
@@ -29,15 +30,16 @@ EPISODES = 50
 class Run:
     """The episodes of a player."""
 
-    def __init__(self, file: IO[bytes], kept: Mapping[tuple[str, int], list[dict[str, Any]]]):
-        self._file, self._kept = file, kept
+    def __init__(
+        self, file: IO[bytes], kept: Mapping[tuple[str, int], list[dict[str, Any]]], instances: instances_lib.Instances
+    ):
+        self._file, self._kept, self._instances = file, kept, instances
 
     def episodes(
         self,
         name: str,
         count: int = EPISODES,
         *,
-        seed: int = protocol.SEED,
         level: str = "named",
         digits: int | None = None,
     ) -> Iterator[words.Episode]:
@@ -48,14 +50,13 @@ class Run:
         Args:
           name: the task, with options, as in `strings/features,difficulty=2`.
           count: the number of episodes.
-          seed: of the environments; by default the score's.
           level, digits: as for `words.Episode`.
 
         Raises:
           ValueError: for a value that is not allowed, or an episode that was begun with others.
         """
         (question,) = protocol.named([name])
-        with contextlib.closing(protocol.load(question, seed)) as environment:
+        with contextlib.closing(protocol.load(question)) as environment:
             for index in range(count):
                 episode = self.begin(question, environment, index, level, digits)
                 if not episode.is_over:
@@ -72,7 +73,9 @@ class Run:
         """Returns the episode of an index in a task, in an environment of the task; one that was begun goes on."""
         kept = self._kept.get((question.name, index), ())
         keep = functools.partial(self._write, task=question.name, episode=index)
-        return words.Episode(environment, index, level, digits, kept, keep)
+        environment.task.reseed(self._instances.seed_of(question.name, index))
+        secret = self._instances.facts if isinstance(self._instances, instances_lib.Private) else None
+        return words.Episode(environment, index, level, digits, kept, keep, secret)
 
     def tell(self, **facts: Any) -> None:
         """Keeps facts about the client's work since the last report, such as its tokens and their cost."""
@@ -84,7 +87,15 @@ class Run:
 
 
 @contextlib.contextmanager
-def run(folder: Path, *, model: str, harness: str, tools: str, budget: str) -> Iterator[Run]:
+def run(
+    folder: Path,
+    *,
+    model: str,
+    harness: str,
+    tools: str,
+    budget: str,
+    instances: instances_lib.Instances = protocol.PUBLIC,
+) -> Iterator[Run]:
     """Returns a context for the run of a player, which alone writes into a folder; a run that broke off goes on.
 
     Args:
@@ -93,18 +104,21 @@ def run(folder: Path, *, model: str, harness: str, tools: str, budget: str) -> I
       harness: the program that leads it, with its version.
       tools: the tools that it has besides those of an episode; `none`, for instance.
       budget: its limits, such as tokens or replies for each episode.
+      instances: those that are played; files and replies tell neither a key nor the seeds that follow from it.
 
     Raises:
-      ValueError: if the folder holds a run of another player, or another process writes into it.
+      ValueError: if the folder holds a run of another player or of other instances, or another process writes into it.
     """
     player = {"model": model, "harness": harness, "tools": tools, "budget": budget}
+    first = {"player": player, "instances": instances.facts}
     with lock.locked(folder, f"{folder} is in use by another process; give another folder"):
         path = folder / TRANSCRIPT
         with path.open("a+b") as file:
             lines = _lines(file)
             if not lines:
-                file.write(json.dumps({"player": player, "versions": provenance.versions()}).encode() + b"\n")
-            for (name, *_), theirs, ours in playing.differences(lines[0]["player"] if lines else player, player):
+                file.write(json.dumps({**first, "versions": provenance.versions()}).encode() + b"\n")
+            begun = {name: lines[0][name] for name in first} if lines else first
+            for (_, name), theirs, ours in playing.differences(begun, first):
                 raise ValueError(
                     f"{path} has the {name} {theirs!r} instead of {ours!r}; give the same, or another folder"
                 )
@@ -113,7 +127,7 @@ def run(folder: Path, *, model: str, harness: str, tools: str, budget: str) -> I
                 if "told" not in line:
                     kept.setdefault((line.pop("task"), line.pop("episode")), []).append(line)
             try:
-                yield Run(file, kept)
+                yield Run(file, kept, instances)
             finally:
                 found = "".join(json.dumps(record) + "\n" for record in records(path))
                 files.write_atomically(folder / RECORDS, found.encode())

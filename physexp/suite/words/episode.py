@@ -51,7 +51,7 @@ class Episode:
 
     Attributes:
       environment: the environment that it is played in.
-      seed, index: seed of the environment and index of the episode: they rebuild its instance.
+      seed, index: seed of the environment and index of the episode: they rebuild its instance. No tool tells them.
       actions: the actions so far.
       times: ms from the beginning of the episode to each of them.
       log_scores: for each answer, the logarithm of the probability that the last belief about its question gave to the
@@ -71,6 +71,7 @@ class Episode:
         digits: int | None = None,
         events: Sequence[Mapping[str, Any]] = (),
         keep: Callable[[Mapping[str, Any]], None] = lambda event: None,
+        secret: Mapping[str, Any] | None = None,
     ):
         """Starts an episode in an environment of the suite; another episode that it plays is over.
 
@@ -81,6 +82,7 @@ class Episode:
           digits: decimals of the numbers that are told; None for the shortest form that has every bit of a float32.
           events: those of the same episode, broken off, which goes on after them.
           keep: called with each new event.
+          secret: the entry of events and records in the place of a seed that is to stay secret.
 
         Raises:
           ValueError: for a value that is not allowed, or events that are not those of this episode.
@@ -98,7 +100,8 @@ class Episode:
         self.events: list[dict[str, Any]] = []
         self._belief: list[float] | None = None
         self._first = self._teller.told(self._timestep.observation)
-        begun = {"seed": self.seed, "index": self.index, "level": level, "digits": digits}
+        self._instance = {"seed": self.seed} if secret is None else dict(secret)
+        begun = {**self._instance, "index": self.index, "level": level, "digits": digits}
         self._clock: Callable[[], float] = time.time
         self._keep: Callable[[Mapping[str, Any]], None] = lambda event: None
         self._repeat(events, begun)
@@ -226,11 +229,11 @@ class Episode:
     def record(self) -> dict[str, Any]:
         """Returns the facts that rebuild the episode so far, and its results.
 
-        They are `seed`, `episode`, its index, `actions` and `times`; `level` and `digits`; the number of calls that
-        were `refused`, the discounted `return`, and `log_scores`.
+        They are `seed`, or the entry in its place, `episode`, its index, `actions` and `times`; `level` and `digits`;
+        the number of calls that were `refused`, the discounted `return`, and `log_scores`.
         """
         return {
-            "seed": self.seed,
+            **self._instance,
             "episode": self.index,
             "actions": self.actions.copy(),
             "times": self.times.copy(),

@@ -14,7 +14,7 @@ from seeds import fresh_seed
 from physexp import suite
 from physexp.analysis.data import episodes
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import judging, protocol, transcripts
+from physexp.analysis.score import instances, judging, protocol, transcripts
 from physexp.suite import words
 
 sys.path.insert(0, str(Path(__file__).parents[3] / "docs" / "examples"))
@@ -146,11 +146,14 @@ def test_a_run_that_broke_off_goes_on_where_it_was(tmp_path):
     for record in (*again, *expected):
         assert (times := record.pop("times")) == sorted(times)
     assert again == expected
-    another = transcripts.run(broken, **{**PLAYER, "model": "another"})
-    with pytest.raises(ValueError, match="has the model 'a script' instead of 'another'"), another:
-        pass
+    for changed, told in (
+        ({"model": "another"}, "has the model 'a script' instead of 'another'"),
+        ({"instances": instances.Public(7)}, f"has the seed {protocol.SEED} instead of 7"),
+    ):
+        with pytest.raises(ValueError, match=told), transcripts.run(broken, **{**PLAYER, **changed}):
+            pass
     with pytest.raises(ValueError, match="not the episode"):
-        run_with(broken, in_words.at_once, "balance/features", 3, seed=7)
+        run_with(broken, in_words.at_once, "balance/features", 2, digits=1)
 
 
 def test_a_program_plays_and_its_client_tells_the_price(tmp_path):
