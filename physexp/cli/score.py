@@ -50,7 +50,9 @@ class Score(Playing):
 
     target: str | None = word("TARGET", TARGET, "?", None)  # type: ignore[assignment]  # --records has players.
     records: Path | None = option(
-        None, "instead of a target, a file of what people or models have played (docs/page.md): a score of each player"
+        None,
+        "instead of a target, a file of what people or models have played (docs/page.md): a score of each player, "
+        "or with --output the folder of a score, as of a target, of the one player that it has",
     )
     quick: bool = option(False, "100 episodes of each task instead of 1000")
     episodes: int | None = option(None, "number of episodes of each task")
@@ -64,21 +66,19 @@ class Score(Playing):
 
     def run(self) -> None:
         """Plays, judges, writes the report and prints the score."""
-        if self.records is not None and self.target is None:
+        if self.records is not None and self.target is None and self.output is None:
             _score_records(self.records, self.instances, self.json)
             return
-        if self.records is not None or self.target is None:
-            raise ValueError("give a target, or --records FILE; see physexp score --help")
         extras.require("matplotlib")
         from physexp.analysis.score import instances, playing, protocol, scoring, targets
         from physexp.analysis.training import progress
 
-        target = targets.find(self.target, self.greedy)
-        chosen = target.choose(self.tasks, self.track)
         which = protocol.PUBLIC if self.instances is None else instances.read(self.instances, protocol.VERSION)
         usual = protocol.QUICK_EPISODES if self.quick else protocol.EPISODES
         count = usual if self.episodes is None else self.episodes
-        folder = self.output or playing.unfinished(Path("scores") / targets.file_name(self.target))
+        target = self._find(which, count)
+        chosen = target.choose(self.tasks, self.track)
+        folder = self.output or playing.unfinished(Path("scores") / targets.file_name(target.name))
         made = self._made()
         with playing_in(folder), progress.bar("episodes", count * len(chosen)) as show:
             found = scoring.score(
@@ -98,6 +98,16 @@ class Score(Playing):
         for rows in filter(None, (_of_tasks(found), _of_tracks(found))):
             printing.show(rows)
         printing.tell(str(folder))
+
+    def _find(self, which: Any, count: int) -> Any:
+        """Returns the target, or the player of records as one, which has played some instances."""
+        from physexp.analysis.score import records, targets
+
+        if self.target is not None and self.records is None:
+            return targets.find(self.target, self.greedy)
+        if self.records is not None and self.target is None:
+            return records.target(self.records, which, count)
+        raise ValueError("give a target, or --records FILE; see physexp score --help")
 
     def _made(self) -> dict:
         """Returns the given facts of how the agent was made; raises ValueError for numbers that make no sense."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from physexp.agents import files
 from physexp.analysis.data import plots, provenance, text
-from physexp.analysis.score import log, protocol, replays, report, scores, scoring, verifying
+from physexp.analysis.score import log, protocol, replays, report, scores, scoring, transcripts, verifying
 
 FOLDER = "scores"
 NAME = "leaderboard"
@@ -74,8 +74,9 @@ def _row(folder: Path, verify: Callable[[Path], None]) -> Row:
     extent, names = found["protocol"], [question.name for question in questions]
     if not found["complete"]:
         raise ValueError(f"{folder} is not complete: {found.get('problem')}; score again, elsewhere")
-    if extent["episodes"] != protocol.EPISODES:
-        raise ValueError(f"{folder} has {extent['episodes']} episodes of each task; a row has {protocol.EPISODES:,}")
+    fewest = transcripts.EPISODES if found["agent"].get("player") else protocol.EPISODES
+    if extent["episodes"] not in (fewest, protocol.EPISODES):
+        raise ValueError(f"{folder} has {extent['episodes']} episodes of each task; a row has {fewest:,}")
     if others := [name for name in extent["tasks"] or ["no task"] if name not in names]:
         raise ValueError(f"{folder} is of {others[0]}; a row is of {', '.join(names)}")
     verify(folder)
@@ -108,6 +109,7 @@ def markdown(rows: Sequence[Row]) -> str:
         tracks={name: _in_track(rows, name) for name in _played(rows)},
         meanings=protocol.TRACKS,
         words=report.words,
+        player=report.player,
         number=lambda score: f"{score:.3f}".replace("-0.000", "0.000"),
         quote=lambda name: parse.quote(os.fsencode(name)),
         commit=provenance.shortened,

@@ -5,8 +5,8 @@ A record is a line of JSON: `player`, `task`, `seed` (of the environment; the `k
 episodes, and of several players.
 """
 
-from collections import defaultdict
-from collections.abc import Callable, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Callable, Mapping, Sequence
 import contextlib
 import dataclasses
 import json
@@ -17,8 +17,11 @@ from physexp import checks, suite
 from physexp.agents import environment_loop
 from physexp.analysis.data import episodes
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import instances, judging, log, protocol, scores
+from physexp.analysis.score import instances, judging, log, protocol, scores, targets
 from physexp.suite.engine import seeding
+
+FACTS = ("player", "harness", "tools", "budget", "level", "digits")
+"""Fields that tell how a player played, if a record has them."""
 
 _LARGEST = 2**28  # Bytes of a file.
 
@@ -32,6 +35,8 @@ class Record:
       question: its task.
       seed, episode: of its environment, and its index there.
       actions: its actions.
+      facts: those of its `FACTS` that it has.
+      told: amounts that it has spent, by name.
       place: file and line, for messages.
     """
 
@@ -40,6 +45,8 @@ class Record:
     seed: int
     episode: int
     actions: tuple[int, ...]
+    facts: Mapping[str, Any]
+    told: Mapping[str, float]
     place: str
 
 
@@ -68,7 +75,8 @@ def _record(place: str, line: bytes, private: instances.Private | None) -> Recor
         fields = None
     if not isinstance(fields, dict):
         raise ValueError(f"{place} is no object of JSON; was the file cut off?")
-    for name, kind in {"player": str, "task": str, "actions": list, "times": list}.items():
+    fields = {"told": {}, **fields}
+    for name, kind in {"player": str, "task": str, "actions": list, "times": list, "told": dict}.items():
         if not isinstance(fields.get(name), kind):
             raise ValueError(f"{place}: {name} is {checks.shown(fields.get(name))}; give a {kind.__name__}")
     if len(fields["times"]) != len(fields["actions"]):
@@ -83,9 +91,45 @@ def _record(place: str, line: bytes, private: instances.Private | None) -> Recor
         actions = tuple(checks.integer("an action", action, 0, allowed) for action in fields["actions"])
         given = fields.get("seed") if private is None else private.seed_of(question.name, episode)
         seed = checks.integer("seed", given, 0, seeding.LARGEST_SEED)
+        told = {name: checks.at_least(0)(f"told {name}", amount) for name, amount in fields["told"].items()}
     except ValueError as error:
         raise ValueError(f"{place}: {error}") from None
-    return Record(fields["player"], question, seed, episode, actions, place)
+    facts = {name: fields[name] for name in FACTS if name in fields}
+    return Record(fields["player"], question, seed, episode, actions, facts, told, place)
+
+
+def target(path: Path, which: instances.Instances, count: int) -> targets.Target:
+    """Returns the one player of a file as a target, which plays its first episodes of some instances again.
+
+    Raises ValueError as `read` and `score` do, for records of several players, and for a record that is missing.
+    """
+    found, _ = read(path, which if isinstance(which, instances.Private) else None)
+    for record in found:
+        if record.facts != found[0].facts:
+            raise ValueError(f"{record.place} is of another player, or of other facts about it; give a file of one")
+    asked = tuple(dict.fromkeys(record.question for record in found))
+    known = {(record.question, record.seed, record.episode): record for record in found}
+    chosen: dict[tuple[protocol.Question, int], Record] = {}
+    for question in asked:
+        with contextlib.closing(protocol.load(question)) as environment:
+            for index in range(count):
+                key = question, which.seed_of(question.name, index), index
+                if key not in known:
+                    raise ValueError(
+                        f"{path} has no record of episode {index} of {question.name} in these instances; play it, or "
+                        "give fewer --episodes"
+                    )
+                _played(environment, known[key])
+                chosen[question, index] = known[key]
+    told: Counter[str] = Counter()
+    for record in chosen.values():
+        told.update(record.told)  # A sum of counters leaves out amounts of 0.
+    facts = {**found[0].facts, "told": dict(told)}
+
+    def make(question: protocol.Question, index: int) -> environment_loop.Repeat:
+        return environment_loop.Repeat(chosen[question, index].actions)
+
+    return targets.Target(found[0].player, False, asked, make, facts=facts)
 
 
 def score(

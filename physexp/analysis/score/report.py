@@ -13,7 +13,7 @@ import numpy as np
 from physexp.agents import files
 from physexp.analysis.data import plots, provenance, text
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import log, protocol, scores, scoring
+from physexp.analysis.score import log, protocol, records, scores, scoring
 
 NAME = "report"
 
@@ -51,6 +51,7 @@ def write(folder: Path) -> list[Path]:
         headlines=scores.headlines(found),
         image=base64.b64encode(figure).decode(),
         commit=provenance.shortened,
+        player=player,
     )
     paths = [folder / f"{NAME}.html", folder / f"{NAME}.png"]
     for path, content in zip(paths, (page.encode(), figure), strict=True):
@@ -84,6 +85,12 @@ def words(name: str) -> str:
     task, *options = setting.split(",")
     parts = (domain, task.removesuffix("features").strip("_"), *options)
     return ", ".join(part.replace("_", " ").replace("=", " ") for part in parts if part)
+
+
+def player(agent: Mapping[str, Any]) -> str:
+    """Returns the facts about the player of records, in words; empty for other agents."""
+    facts = [f"{name} {agent[name]}" for name in records.FACTS if agent.get(name) is not None]
+    return "; ".join(facts + [f"{name} {amount:,.10g}" for name, amount in (agent.get("told") or {}).items()])
 
 
 def draw_scores(axes, found: Mapping[str, Any]) -> None:

@@ -18,6 +18,9 @@ _TRAINED = {
     "seeds": list | None,
     "answers_revealed": bool | None,
     "agents": dict | None,
+    **dict.fromkeys(("player", "harness", "tools", "budget", "level"), str | None),  # Of the player of records.
+    "digits": int | None,
+    "told": dict | None,
 }
 _KINDS = {
     **dict.fromkeys(("target", "problem", "commit"), str),
@@ -122,6 +125,8 @@ def read(folder: Path) -> dict[str, Any]:
     of_instances = {"key_hash": str} if "key_hash" in found["protocol"] else {"seed": int}
     _check_kinds(path, found["protocol"], {**of_instances, "episodes": int, "tasks": list, "agents": int})
     _check_kinds(path, found["agent"], _TRAINED)
+    told = found["agent"].get("told") or {}
+    _check_kinds(path, told, dict.fromkeys(told, int | float))
     members = found["agent"].get("agents") or {}
     _check_kinds(path, members, dict.fromkeys(members, dict))
     for member in members.values():

@@ -33,6 +33,7 @@ class Target:
       make: makes its actors; None for a user's function, which has a process of its own.
       agents: trained agents, by the task that they were trained on: for each task as many, which differ only in their
         seeds and play its episodes in turns.
+      facts: facts about another target.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Target:
     questions: tuple[protocol.Question, ...] | None
     make: actors.Make | None
     agents: "Mapping[protocol.Question, Sequence[finding.Agent]]" = dataclasses.field(default_factory=dict)
+    facts: Mapping[str, Any] = dataclasses.field(default_factory=dict)
 
     @property
     def num_agents(self) -> int:
@@ -78,7 +80,7 @@ class Target:
         return self.questions is None or question in self.questions or _trained_for(question, self.agents) is not None
 
     def describe(self, questions: Sequence[protocol.Question]) -> dict[str, Any]:
-        """Returns how the agents of some tasks were trained; nothing for other targets.
+        """Returns how the agents of some tasks were trained; the facts about other targets.
 
         They are algorithm, seeds, gamma, whether answers were revealed, command, commit, frames and seconds; of several
         agents of a task, command and commit of the first one, and mean frames and seconds. Of a team, they are
@@ -87,7 +89,7 @@ class Target:
         own = {question.name: _trained_for(question, self.agents) for question in questions}
         facts = {one: _facts(agents) for one, agents in self.agents.items() if one in own.values()}
         if len(self.agents) < 2:
-            return next(iter(facts.values()), {})
+            return next(iter(facts.values()), dict(self.facts))
         sums = {name: sum(one[name] for one in facts.values()) for name in ("frames", "seconds")}
         algorithms = dict.fromkeys(one["algorithm"] for one in facts.values())
         each = {name: facts[one] for name, one in own.items() if one is not None}

@@ -4,6 +4,7 @@
 as it comes. `records.jsonl` has a line for each episode that is over: with seed and index, the actions rebuild it.
 """
 
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping
 import contextlib
 import functools
@@ -14,7 +15,7 @@ from typing import IO, Any
 
 import numpy as np
 
-from physexp import suite
+from physexp import checks, suite
 from physexp.agents import files
 from physexp.analysis.data import lock, provenance
 from physexp.analysis.score import instances as instances_lib
@@ -34,6 +35,7 @@ class Run:
         self, file: IO[bytes], kept: Mapping[tuple[str, int], list[dict[str, Any]]], instances: instances_lib.Instances
     ):
         self._file, self._kept, self._instances = file, kept, instances
+        self._last: dict[str, Any] = {}  # The task and the index of the episode that was played last.
 
     def episodes(
         self,
@@ -77,11 +79,18 @@ class Run:
         secret = self._instances.facts if isinstance(self._instances, instances_lib.Private) else None
         return words.Episode(environment, index, level, digits, kept, keep, secret)
 
-    def tell(self, **facts: Any) -> None:
-        """Keeps facts about the client's work since the last report, such as its tokens and their cost."""
-        self._write({"time": time.time(), "told": facts})
+    def tell(self, **amounts: float) -> None:
+        """Keeps amounts that the client has spent since the last report, in the episode that was played last.
+
+        They may be its tokens and their cost, for instance; the record of an episode has their sums. Raises ValueError
+        for an amount that is no number.
+        """
+        for name, amount in amounts.items():
+            checks.at_least(0)(name, amount)
+        self._write({"time": time.time(), "told": amounts}, **self._last)
 
     def _write(self, event: Mapping[str, Any], **where: Any) -> None:
+        self._last = where
         self._file.write(json.dumps({**where, **event}, default=np.generic.item).encode() + b"\n")
         self._file.flush()
 
@@ -136,13 +145,21 @@ def run(
 def records(transcript: Path) -> list[dict[str, Any]]:
     """Returns the records of the episodes in a transcript that are over; see `words.Episode.record`.
 
-    Each has the facts about the player, too, and the `task` with its options.
+    Each has the facts about the player, too, the `task` with its options, and in `told` the sums of the amounts that
+    `Run.tell` has kept about the episode.
     """
     with transcript.open("rb") as file:
         first, *lines = _lines(file)
     model, *others = first["player"].items()
     facts = {"player": model[1], **dict(others)}
-    return [{**facts, "task": line["task"], **line["ended"]} for line in lines if "ended" in line]
+    told: dict[Any, Counter[str]] = defaultdict(Counter)
+    for line in lines:
+        told[line.get("task"), line.get("episode")].update(line.get("told", {}))
+    return [
+        {**facts, "task": line["task"], **line["ended"], "told": dict(told[line["task"], line["episode"]])}
+        for line in lines
+        if "ended" in line
+    ]
 
 
 def _lines(file: IO[bytes]) -> list[dict[str, Any]]:

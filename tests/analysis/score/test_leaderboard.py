@@ -5,13 +5,15 @@ import json
 from pathlib import Path
 import re
 import shutil
+import sys
 from urllib import parse
 
 import commands
 import pyarrow
 import pytest
 
-from physexp.analysis.score import leaderboard, log, protocol, scores, scoring, targets, verifying
+from physexp import cli
+from physexp.analysis.score import leaderboard, log, protocol, scores, scoring, targets, transcripts, verifying
 
 ROOT = Path(__file__).parents[3]
 EPISODES = 4
@@ -113,6 +115,7 @@ def shorten():
     [
         ({"agent": {"frames": "many"}}, "frames is 'many'"),
         ({"agent": {"agents": {"strings/features": {"commit": 7}}}}, "commit is 7"),
+        ({"agent": {"player": "p", "told": {"tokens": "many"}}}, "tokens is 'many'"),
         ({"version": "v0"}, "is of protocol 'v0'"),
         ({"complete": False, "problem": "made:dies ended"}, "is not complete: made:dies ended"),
         ({"protocol": {"seed": 2000003, "episodes": EPISODES, "tasks": []}}, "is of no task"),
@@ -152,6 +155,36 @@ def test_a_row_is_played_again_once_it_changes(copied, monkeypatch):
     leaderboard.read(results)
     leaderboard.read(results)
     assert played == [folder]
+
+
+def test_a_player_in_words_gets_a_row_that_tells_its_facts(copied, monkeypatch, tmp_path):
+    monkeypatch.setattr(transcripts, "EPISODES", 2)
+    played = tmp_path / "run"
+    facts = {"model": "m 1", "harness": "h 2", "tools": "none", "budget": "a reply"}
+    with transcripts.run(played, **facts) as run:
+        for episode in run.episodes("threshold/features", 2):
+            episode.answer(0)
+            run.tell(tokens=600, cost=0.25)
+    results, _ = copied
+    folder = results / "scores" / "in words"
+    given = ["--records", played / transcripts.RECORDS, "--episodes", "2", "--output", folder, "--json"]
+    monkeypatch.setattr(sys, "argv", ["physexp", "score", *map(str, given)])
+    cli.main()
+    kept = [json.loads(line) for line in (played / transcripts.RECORDS).read_text().splitlines()]
+    assert [record["told"] for record in kept] == [{"tokens": 600, "cost": 0.25}] * 2
+    metrics = scoring.read(folder)["tasks"]["threshold/features"]
+    mean = sum(record["return"] for record in kept) / 2
+    expected = (mean - metrics["floor"]) / (metrics["ideal"] - metrics["floor"])
+    assert metrics["raw_score"] == pytest.approx(expected, abs=1e-12)
+    rows, refused = leaderboard.read(results)
+    assert not refused and "in words" in [row.name for row in rows]
+    page = leaderboard.markdown(rows)
+    told = "player m 1; harness h 2; tools none; budget a reply; level named; tokens 1,200; cost 0.5"
+    assert f"{told} | one player, 2 episodes of each task |" in page
+
+    change_facts(folder, agent={})
+    _, (line,) = leaderboard.read(results)
+    assert "has 2 episodes of each task; a row has 4" in line
 
 
 def test_without_scores_there_is_no_leaderboard(tmp_path):

@@ -72,6 +72,21 @@ def test_the_first_line_that_is_no_record_is_named(bad, message, tmp_path):
     assert message in str(caught.value)
 
 
+def test_records_of_several_players_or_of_too_few_episodes_are_no_target(tmp_path):
+    own = {"seed": protocol.ENVIRONMENT_SEED, "actions": [8], "times": [1]}
+    lines = [line(**own), line(**own, episode=1)]
+    found = records.target(written(tmp_path / "one", *lines), protocol.PUBLIC, 2)
+    assert (found.name, [one.name for one in found.questions]) == ("p1", ["threshold/features"])
+    for others, count, message in (
+        ([line(**own, episode=2, harness="another")], 2, "one, line 3 is of another player, or of other facts"),
+        ([line(**{**own, "seed": 7}, episode=2)], 3, "no record of episode 2 of threshold/features"),
+        ([line(**{**own, "actions": [0]}, episode=2)], 3, "line 3: the episode goes on after its 1 actions"),
+        ([line(**own, episode=2, told={"cost": "x"})], 3, "line 3: told cost is 'x'; give a finite number >= 0"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            records.target(written(tmp_path / "one", *lines, *others), protocol.PUBLIC, count)
+
+
 def test_the_command_prints_a_line_for_each_player(tmp_path):
     path = written(tmp_path / "records.jsonl", line(), line(player="p2", seed=8), line())
     done = commands.run("score", "--records", path)
