@@ -1,9 +1,9 @@
 // The page: chooses a task and an instance, keeps records, and plays those that a link tells.
 import load from "@mujoco/mujoco";
 import { Player, element } from "./player.js";
-import { World } from "./world.js";
+import { World, judge } from "./world.js";
 
-export { World };
+export { Player, World, element, judge };
 
 const STORE = "physexp";
 const PAUSE = 400; // ms, between the actions of a link.
@@ -29,7 +29,7 @@ export async function start(program = inline("program")) {
 }
 
 const tasks = async () => JSON.parse(inline("tasks") ?? (await (await fetched("tasks.json")).text()));
-const taskOf = async (file) => JSON.parse(inline(file) ?? (await (await fetched(`${file}.json`)).text()));
+export const taskOf = async (file) => JSON.parse(inline(file) ?? (await (await fetched(`${file}.json`)).text()));
 
 const records = {
   all: () => JSON.parse(localStorage.getItem(STORE) ?? "[]"),

@@ -67,7 +67,7 @@ def _played(question: protocol.Question, numbers: Sequence[int], seed: int) -> d
 def write(folder: Path, tasks: dict[str, exporting.Data]) -> Path:
     """Writes the page into a folder, which it makes; returns the path to open. It needs a server."""
     folder.mkdir(parents=True, exist_ok=True)
-    for path in SITE.iterdir():
+    for path in SITE.glob("*.*"):
         shutil.copyfile(path, folder / path.name)
     for name, content in _contents(tasks).items():
         (folder / f"{name}.json").write_text(content, encoding="utf-8")
