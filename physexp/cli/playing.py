@@ -126,19 +126,28 @@ class Page:
     instances: int = option(20, "instances of each task")
     seed: int | None = option(None, "seed of the instances; by default that of `physexp score`")
     single_file: bool = option(False, "write one HTML file that a browser opens without a server")
+    study: bool = option(False, "write a study: consent, practice, quiz, the instances, and debriefing")
+    orders: int = option(1, "with --study, orders of the instances; the number of a participant chooses one")
 
     def run(self) -> None:
         """Prepares the tasks and writes the page."""
         from physexp import checks, suite
-        from physexp.analysis.play import page
+        from physexp.analysis.play import page, study
         from physexp.analysis.score import protocol
 
+        if self.study and self.single_file:
+            raise ValueError("a study needs a server, which --single-file does without; give one of the two")
         count = checks.integer("instances", self.instances, 1, page.MOST_INSTANCES)
+        orders = checks.integer("orders", self.orders, 1, count)
         seed = protocol.ENVIRONMENT_SEED if self.seed is None else self.seed
         names = self.tasks or [f"{domain}/{task}" for domain, task in suite.tagged("features")]
-        tasks = page.prepare(protocol.named(names), range(count), seed, printing.tell)
-        write = page.write_single if self.single_file else page.write
-        printing.tell(f"wrote {write(self.folder, tasks)}")
+        practice = study.PRACTICE if self.study else 0
+        tasks = page.prepare(protocol.named(names), range(practice + count), seed, printing.tell)
+        if self.study:
+            path = study.write(self.folder, tasks, orders)
+        else:
+            path = (page.write_single if self.single_file else page.write)(self.folder, tasks)
+        printing.tell(f"wrote {path}")
 
 
 @dataclasses.dataclass
