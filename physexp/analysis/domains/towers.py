@@ -97,6 +97,19 @@ def hypotheses(task: str, task_kwargs: Mapping[str, Any] | None = None, nuisance
     return hypotheses_lib.Hypotheses(_NAME, task, patterns, towers.PRIOR, task_kwargs, nuisances)
 
 
+def _tolerance(task: str, task_kwargs: Mapping[str, Any]) -> float | None:
+    """Returns half of the fist's move in a control step, m and m/s; None where there is no fist.
+
+    A moving fist can stand in countless places. Judging actions, one search serves all states that differ by no more.
+    """
+    from physexp.suite.domains import towers
+    from physexp.suite.parts import actuators
+
+    if not task.startswith("fist"):
+        return None
+    return actuators.FIST_SPEED * towers.Options(**{**task_kwargs, "random": 0}).control_timestep / 2
+
+
 def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolution: float = IdealOptions.resolution):
     """Returns the ideal experimenter with some resolution.
 
@@ -107,7 +120,8 @@ def _solve(task: str, task_kwargs: Mapping[str, Any], discount: float, *, resolu
     from physexp.analysis.ideal import bounds, search
 
     if bounds.is_certain(task_kwargs):
-        return search.Solution(hypotheses(task, task_kwargs), resolution, discount, tolerance=_TOLERANCES.get(task))
+        tolerance = _tolerance(task, task_kwargs)
+        return search.Solution(hypotheses(task, task_kwargs), resolution, discount, tolerance=tolerance)
     if task not in _RULES:
         raise ValueError(f"task is {task!r}; with noise or variation, choose from {', '.join(_RULES)}")
     noiseless = {name: value for name, value in task_kwargs.items() if name != "noise"}
@@ -136,9 +150,6 @@ def _drawn_nuisances(task: str, task_kwargs: Mapping[str, Any]):
 
 
 _NUM_NUISANCES = 16
-# m and m/s. A moving fist can stand in countless places. Judging actions, one search serves all states that differ by
-# less than half of the fist's move in a control step.
-_TOLERANCES = dict.fromkeys(("fist_features", "fist_pixels"), 0.05)
 _COARSE = 0.001  # m, the resolution of the baseline `lookup`.
 _RULES = {
     "direct_features": ((4, 14), _NUM_PUSHES),  # Push cube 1 to +x, and cube 3 to +y.

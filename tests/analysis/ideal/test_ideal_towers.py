@@ -266,3 +266,11 @@ def test_the_rule_for_noisy_towers_answers_in_the_last_step(monkeypatch):
     summary = solution.summary()
     assert summary["mean_interactions"] == 0
     assert abs(solution.value - (2 / 5 - 1)) < 4 * summary["value_error"]  # One of five answers is right.
+
+
+@pytest.mark.parametrize("control_timestep, moves", [(0.05, 4), (0.1, 2)])
+def test_the_best_first_action_is_judged_to_earn_the_ideals_return(control_timestep, moves):
+    # The fist stands 0.2 m before it touches the tower, and moves at 1 m/s: it knows the answer after 0.2 s.
+    solution = towers.DOMAIN.ideal("fist_features", {"control_timestep": control_timestep, **SHORT}, 0.98)
+    judged = solution.judge(0, np.array([suite.load_task("towers", "fist_features").num_interactions]))
+    assert judged.values[0].max() == pytest.approx(0.98**moves, abs=1e-9) == solution.value
