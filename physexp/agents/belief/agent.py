@@ -127,10 +127,8 @@ class Belief(synchronous.SynchronousAgent):
             are_counted = played
         else:  # Several questions have two labels each, so a reward reveals the right one.
             left = torch.where(is_last, num_questions - are_answers.cumsum(0), 0)  # In the end, each costs 1.
-            answered, are_right = (
-                (actions - num_interactions).clamp(min=0),
-                torch.from_numpy(episodes.rewards) + left > 0,
-            )
+            are_right = torch.from_numpy(episodes.rewards) + left > 0
+            answered = (actions - num_interactions).clamp(min=0)
             labels = losses.label_posterior(held_out_logits[at_end], answered[at_end], are_right[at_end])
             are_counted = played & are_answers[at_end]
         return are_ends, labels, are_counted if self._config.every_step else are_counted & are_ends
