@@ -7,8 +7,8 @@ import trainers
 
 from physexp import suite
 from physexp.analysis.training import config as config_lib
+from physexp.analysis.training import finding, trainer
 from physexp.analysis.training import run as run_lib
-from physexp.analysis.training import trainer
 
 SETTINGS = ({"difficulty": 3.0}, {"difficulty": 5.0}, {"difficulty": 10.0})
 
@@ -34,6 +34,15 @@ def test_each_round_is_the_same_as_in_its_own_setting():
 def test_settings_that_one_network_cannot_play_are_refused():
     with pytest.raises(ValueError, match=r"^a setting has 6 interactions, 12 actions, .*the first one 4 inter"):
         trainer.make_environment(make_config({}, {"num_blocks": 6}), seed=0, num_environments=2, num_threads=1)
+
+
+def test_an_agent_is_found_in_each_setting_of_its_training(tmp_path):
+    run = run_lib.Run(tmp_path / "run")
+    trainer.train(run, start=make_config(*SETTINGS, frames=300))
+    for setting in SETTINGS:
+        assert finding.find_agent(str(run.path), setting).config.task_kwargs == setting
+    with pytest.raises(ValueError, match="was trained at difficulty 3, and difficulty is 4; leave that out"):
+        finding.find_agent(str(run.path), {"difficulty": 4})
 
 
 def test_a_run_stores_episodes_of_its_first_setting(tmp_path):

@@ -74,7 +74,8 @@ class Target:
     def _trained_on(self) -> set[protocol.Question]:
         """Returns all settings that its agents were trained on."""
         configs = [agent.config for agents in self.agents.values() for agent in agents]
-        return {protocol.question(one.domain, one.task, options) for one in configs for options in one.settings}
+        settings = (setting for one in configs for setting in one.settings)
+        return {protocol.question(each.domain, each.task, each.task_kwargs) for each in settings}
 
     def _can_play(self, question: protocol.Question) -> bool:
         return self.questions is None or question in self.questions or _trained_for(question, self.agents) is not None
@@ -157,7 +158,7 @@ def _check_seeds(name: str, agents: "Mapping[protocol.Question, Sequence[finding
     counts = {question.name: len(its) for question, its in agents.items()}
     for question, its in agents.items():
         seeds = {one.config.agent.seed for one in its}
-        alike = [(one.config.agent.replace(seed=0), one.config.settings) for one in its]
+        alike = [dataclasses.replace(one.config, agent=one.config.agent.replace(seed=0)) for one in its]
         if len(seeds) < len(its) or any(one != alike[0] for one in alike):
             raise ValueError(
                 f"{name} has two agents for {question.name} with equal seeds or of other configurations; leave out one"

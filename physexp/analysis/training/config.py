@@ -81,9 +81,10 @@ class TrainConfig:
         return f"{self.domain}-{self.task}{options}{algorithm}-{numbers}"
 
     @property
-    def settings(self) -> list[dict[str, Any]]:
-        """The options of each setting that training takes turns in; the first are `task_kwargs`."""
-        return [{**self.task_kwargs, **more} for more in ({}, *self.also)]
+    def settings(self) -> "list[TrainConfig]":
+        """The configuration of each setting alone that training takes turns in; the first is that of `task_kwargs`."""
+        every = ({**self.task_kwargs, **more} for more in ({}, *self.also))
+        return [dataclasses.replace(self, task_kwargs=task_kwargs, also=()) for task_kwargs in every]
 
     def load_task(self) -> Any:
         """Returns the task with its options; see `suite.load_task`."""

@@ -22,7 +22,8 @@ class Agent(NamedTuple):
 
     Attributes:
       network: its network.
-      config: the configuration of its training: the task, its options, and the learner.
+      config: the configuration of its training: the task, its options, and the learner; or of one setting of that
+        training alone.
       provenance: returns command, commit, frames and seconds of its training.
     """
 
@@ -68,29 +69,36 @@ def find_agent(target: str, task_kwargs: Mapping[str, Any] | None = None) -> Age
             f"{target} holds no run (no config.json); give the folder of a run, the file of a published agent "
             f"(NAME.safetensors), or a trained agent: {known}"
         )
-    _check_options(target, found.config, wanted)
-    return found
+    return _in_setting(target, found, wanted)
 
 
 def shipped_agent(domain: str, task: str, task_kwargs: Mapping[str, Any]) -> Agent:
     """Returns the agent that comes with the package for a task with these options; raises as `find_agent`."""
     options = {name: value for name, value in task_kwargs.items() if name in pretrained.options_of(domain, task)}
     agent = _of_card(pretrained.load(domain, task, **options))
-    _check_options(f"{domain}/{task}", agent.config, task_kwargs)
-    return agent
+    return _in_setting(f"{domain}/{task}", agent, task_kwargs)
 
 
-def _check_options(target: str, config: config_lib.TrainConfig, wanted: Mapping[str, Any]) -> None:
-    """Refuses an agent that was trained with other options than are wanted."""
-    if not wanted:
-        return
-    options = dataclasses.asdict(config.load_task().options)
+def _in_setting(target: str, agent: Agent, wanted: Mapping[str, Any]) -> Agent:
+    """Returns an agent in the first setting of its training that has some options; refuses it if there is none."""
+    if not (difference := _difference(agent.config, wanted)):
+        return agent
+    for config in agent.config.settings:
+        if not _difference(config, wanted):
+            return agent._replace(config=config)
+    raise ValueError(f"{target} {difference}; leave that out, or name another agent")
+
+
+def _difference(config: config_lib.TrainConfig, wanted: Mapping[str, Any]) -> str:
+    """Returns a clause on the first option that differs from the one wanted; nothing if none does."""
+    options = dataclasses.asdict(config.load_task().options) if wanted else {}
     for name, value in wanted.items():
         trained_at = options.get(name)  # The task's own, where the configuration has none.
         if value != trained_at:
             usual = "without" if trained_at is None else f"at {name} {agent_config.shown(trained_at)}"
             what = f"was trained {usual}" if name in options else f"has no {name}"
-            raise ValueError(f"{target} {what}, and {name} is {value}; leave that out, or name another agent")
+            return f"{what}, and {name} is {value}"
+    return ""
 
 
 def _of_card(agent: pretrained.Pretrained) -> Agent:

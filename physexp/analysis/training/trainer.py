@@ -19,8 +19,10 @@ _CHECKPOINTS_AT_ONCE = 3  # Two are kept, and the next is written before the old
 def make_environment(config: config_lib.TrainConfig, seed: int, num_environments: int, num_threads: int):
     """Returns a batch of a run's environments, with a seed of their own."""
     batches = [
-        suite.load_batch(config.domain, config.task, num_environments, {**options, "random": seed}, num_threads)
-        for options in config.settings
+        suite.load_batch(
+            setting.domain, setting.task, num_environments, {**setting.task_kwargs, "random": seed}, num_threads
+        )
+        for setting in config.settings
     ]
     return alternating.Alternating(batches) if config.also else batches[0]
 
@@ -42,7 +44,7 @@ def check(config: config_lib.TrainConfig) -> None:
     It names an unknown task, a GPU or an OpenGL library that is needed and missing, or more workers than there is room
     for.
     """
-    task, *_ = [suite.load_task(config.domain, config.task, options) for options in config.settings]
+    task, *_ = [setting.load_task() for setting in config.settings]
     needs_gl = task.pixels
     try:
         if needs_gl:
