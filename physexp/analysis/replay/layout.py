@@ -58,16 +58,17 @@ class _Views:
 
     def _scene(self) -> rrb.Tabs:
         """Returns tabs of the observed scene or image, and of the true scene, in which covers are transparent."""
-        world, title = f"{self._root}/world", self._episode.agent or "scene"
+        world, title, shapes = f"{self._root}/world", self._episode.agent or "scene", self._episode.shapes
         edges = rr.Boxes3D.from_fields(fill_mode="majorwireframe")
-        covers = {f"{world}/{cover}": edges for cover in _covers(self._episode)}
+        folders = ["hidden" if is_moving else "room" for is_moving in shapes.are_moving]
+        glass = {f"{world}/{folders[k]}/{shapes.names[k]}": edges for k in covers(self._episode)}
         images = [name for name in self._episode.observations if name not in self._task.observer.readings]
         if images:
             name = self._named(f"{title}: the image")
             observed: rrb.View = rrb.Spatial2DView(origin=f"{self._root}/seen/{images[0]}", name=name)
         else:
             observed = self._world(title, {f"{world}/hidden": _INVISIBLE})
-        true = self._world(words.HIDDEN_TAB, {f"{world}/things": _INVISIBLE, **covers})
+        true = self._world(words.HIDDEN_TAB, {f"{world}/things": _INVISIBLE, **glass})
         return rrb.Tabs(observed, true, active_tab=0)
 
     def _world(self, title: str, overrides: Any) -> rrb.View:
@@ -130,16 +131,16 @@ def _tabs(views: Sequence[rrb.View]) -> list[rrb.Container]:
     return [rrb.Tabs(*views, active_tab=0)] if views else []
 
 
-def _covers(episode: recording.Film) -> list[str]:
-    """Returns the entities of boxes that hold an unplaced thing at the start."""
+def covers(episode: recording.Film) -> list[int]:
+    """Returns the boxes that hold an unplaced thing at the start, by shape."""
     shapes, positions = episode.shapes, episode.positions[0]
-    covers = []
+    found = []
     for k in np.flatnonzero(shapes.are_drawn).tolist():
         within = np.abs((positions - positions[k]) @ episode.rotations[0, k]) < shapes.sizes[k]
         is_inside = within.all(axis=1) & ~shapes.are_placed & (np.arange(len(positions)) != k)
         if shapes.kinds[k] == "box" and is_inside.any():
-            covers.append(f"{'hidden' if shapes.are_moving[k] else 'room'}/{shapes.names[k]}")
-    return covers
+            found.append(k)
+    return found
 
 
 def _eye(camera: Any) -> rrb.EyeControls3D:
