@@ -37,6 +37,7 @@ _ARROW_LENGTH = 0.25  # m
 _FLOOR_THICKNESS, _FLOOR_COLOR = 0.01, (190, 190, 185)  # m
 _BAND_RADIUS = 0.004  # m
 _TEXT_ABOVE = (0.05, 0.11)  # m above the thing; neighbours alternate.
+_JUST_BEFORE = 1e-6  # s
 _MERGE_SECONDS = 300.0  # Hundreds of times the usual duration.
 _OFF = ("off", "false", "0")  # Values of RERUN that make rerun drop all data.
 
@@ -280,21 +281,26 @@ class _EpisodeWriter:
             values = reading.values(observations[reading.name])
             for number, component in enumerate(reading.components):
                 entity, curves = layout.entity(reading, component), values[..., number]
-                self._series(entity, curves, reading.names, colors_of(reading.things), steps=not reading.unit)
+                self._series(entity, curves, reading.names, colors_of(reading.things))
             if reading.is_position:
                 moved.update(zip(reading.things, np.linalg.norm(values - values[0], axis=2).T, strict=True))
         if moved:
             distances = np.stack(list(moved.values()), axis=1)
-            self._series("seen/moved", distances, [*map(readings.spoken, moved)], colors_of(moved), steps=False)
+            self._series("seen/moved", distances, [*map(readings.spoken, moved)], colors_of(moved))
 
     def _colors(self, things: Iterable[str]) -> list[tuple[int, ...]]:
         return [palette.of_thing(self._episode.shapes, thing) for thing in things]
 
-    def _series(self, entity: str, values: np.ndarray, names: Sequence[str], colors=None, steps: bool = True) -> None:
-        """Writes curves [T, S] at the times of the steps; `steps` draws them as step functions."""
-        look: dict[str, Any] = {"colors": colors, "interpolation_mode": "StepAfter" if steps else None}
-        self._log(entity, rr.SeriesLines(names=list(names), widths=[2.0] * len(names), **look))
-        self._columns(entity, self._step_times[: len(values)], rr.Scalars.columns(scalars=values))
+    def _series(self, entity: str, values: np.ndarray, names: Sequence[str], colors=None) -> None:
+        """Writes curves [T, S] that keep their values from step to step."""
+        widths = [2.0] * len(names)
+        look = rr.SeriesLines(names=list(names), widths=widths, colors=colors, interpolation_mode="StepAfter")
+        self._log(entity, look)
+        starts = self._step_times[: len(values)]
+        # The viewer draws a curve up to its next point, which therefore repeats the value.
+        ends = np.maximum(starts[1:] - _JUST_BEFORE, starts[:-1])
+        times, values = np.insert(starts, np.arange(1, len(starts)), ends), values.repeat(2, axis=0)[:-1]
+        self._columns(entity, times, rr.Scalars.columns(scalars=values))
 
     # Beliefs and actions.
 

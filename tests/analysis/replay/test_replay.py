@@ -9,6 +9,8 @@ import numpy as np
 import observers
 import pytest
 import recordings
+from rerun.blueprint import components
+from rerun.chunk import RrdReader
 from scipy.spatial import transform
 from seeds import fresh_seed
 
@@ -132,24 +134,47 @@ def test_poses_and_observations_read_back_are_those_of_the_episode(written):
             images = np.array(rows[f"/seen/{name}"]["Image:buffer"], np.uint8).reshape(values.shape)
             np.testing.assert_array_equal(images, values)
         elif name == "heights":
-            np.testing.assert_array_equal(rows["/seen/heights"]["Scalars:scalars"], values)
+            np.testing.assert_array_equal(rows["/seen/heights"]["Scalars:scalars"][::2], values)
         else:  # Positions, of five blocks or of one fist.
-            read = [rows[f"/seen/{name}/{letter}"]["Scalars:scalars"] for letter in "xyz"]
+            read = [rows[f"/seen/{name}/{letter}"]["Scalars:scalars"][::2] for letter in "xyz"]
             np.testing.assert_array_equal(np.stack(read, axis=-1), values.reshape(len(values), -1, 3))
     if "fist_position" in episode.observations:
         values = episode.observations["fist_position"]
         far = np.linalg.norm(values - values[0], axis=1)
-        np.testing.assert_allclose(np.array(rows["/seen/moved"]["Scalars:scalars"])[:, 5], far, rtol=1e-5)
+        np.testing.assert_allclose(np.array(rows["/seen/moved"]["Scalars:scalars"])[::2, 5], far, rtol=1e-5)
+
+
+def test_a_replay_opens_playing_at_a_tenth_of_real_time(written):
+    reader, panel = RrdReader(str(written[3])), {}
+    (blueprint,) = reader.blueprints()
+    for chunk in reader.stream(store=blueprint):
+        if str(chunk.entity_path) == "/time_panel":
+            panel.update(chunk.to_record_batch().to_pydict())
+    assert panel["TimePanelBlueprint:timeline"] == [["time"]]
+    assert panel["TimePanelBlueprint:playback_speed"] == [[0.1]]
+    assert panel["TimePanelBlueprint:play_state"] == [[components.PlayState.Playing.value]]
+
+
+def test_no_curve_runs_ahead_of_the_moment_shown(written):
+    changing = set()
+    for entity, columns in written[-1].items():
+        if "Scalars:scalars" in columns:
+            times = np.array([time.total_seconds() for time in columns["time"]])
+            are_changes = np.diff(columns["Scalars:scalars"], axis=0).any(axis=1)
+            # The viewer draws a curve up to its next point.
+            assert np.diff(times)[are_changes].max(initial=0) < 2e-6, entity
+            changing |= {entity} if are_changes.any() else set()
+    assert {"/belief/labels", "/belief/value"} <= changing
 
 
 def test_beliefs_and_actions_are_written(written):
     episode, _, environment, _, rows = written
     answers = episode.policies[:, environment.task.num_interactions :]
     belief = answers / answers.sum(axis=1, keepdims=True)
-    np.testing.assert_allclose(rows["/belief/labels"]["Scalars:scalars"], belief)
-    np.testing.assert_allclose(rows["/belief/policy"]["Scalars:scalars"], episode.policies)
-    np.testing.assert_allclose(np.ravel(rows["/belief/answers"]["Scalars:scalars"]), answers.sum(axis=1))
-    np.testing.assert_allclose(np.ravel(rows["/belief/value"]["Scalars:scalars"]), episode.values)
+    np.testing.assert_allclose(rows["/belief/labels"]["Scalars:scalars"][::2], belief)
+    np.testing.assert_allclose(rows["/belief/policy"]["Scalars:scalars"][::2], episode.policies)
+    np.testing.assert_allclose(np.ravel(rows["/belief/answers"]["Scalars:scalars"][::2]), answers.sum(axis=1))
+    np.testing.assert_allclose(np.ravel(rows["/belief/value"]["Scalars:scalars"][::2]), episode.values)
     lines = [f"- step {step}: {environment.task.action_names[action]}" for step, action in enumerate(episode.actions)]
     said = [text[0].splitlines() for text in rows["/did/actions"]["TextDocument:text"]]
     assert said == [lines[: step + 1] for step in range(len(lines))]  # No later action is told.
@@ -438,7 +463,7 @@ def test_an_agent_with_a_belief_shows_it_instead_of_its_policy(tmp_path):
     # The policy takes the best action, and there an interaction: it does not tell what is believed.
     assert episode.policies[:, 4:].sum() < 0.05
     rows = recordings.written(tmp_path / "belief.rrd", episode)
-    np.testing.assert_allclose(rows["/belief/labels"]["Scalars:scalars"], own)
+    np.testing.assert_allclose(rows["/belief/labels"]["Scalars:scalars"][::2], own)
     about = rows["/did/outcome"]["TextDocument:text"][-1][0]
     assert "how likely it holds each label" in about and "renormalized" not in about
 
