@@ -7,7 +7,7 @@ import trainers
 
 from physexp import suite
 from physexp.analysis.training import config as config_lib
-from physexp.analysis.training import finding, trainer
+from physexp.analysis.training import finding, playing, publishing, trainer
 from physexp.analysis.training import run as run_lib
 
 SETTINGS = ({"difficulty": 3.0}, {"difficulty": 5.0}, {"difficulty": 10.0})
@@ -36,13 +36,18 @@ def test_settings_that_one_network_cannot_play_are_refused():
         trainer.make_environment(make_config({}, {"num_blocks": 6}), seed=0, num_environments=2, num_threads=1)
 
 
-def test_an_agent_is_found_in_each_setting_of_its_training(tmp_path):
+def test_an_agent_is_found_and_plays_in_each_setting_of_its_training(tmp_path):
     run = run_lib.Run(tmp_path / "run")
     trainer.train(run, start=make_config(*SETTINGS, frames=300))
+    path = publishing.publish(run, tmp_path, num_episodes=10)
     for setting in SETTINGS:
-        assert finding.find_agent(str(run.path), setting).config.task_kwargs == setting
+        network, config, _ = finding.find_agent(str(path), setting)
+        played = playing.play(network, config, 10)
+        task = suite.load_task("which_is_heavier", "features", setting)
+        assert config.task_kwargs == setting
+        assert (played.hidden == task.draw(played.seed, played.episode)).all()
     with pytest.raises(ValueError, match="was trained at difficulty 3, and difficulty is 4; leave that out"):
-        finding.find_agent(str(run.path), {"difficulty": 4})
+        finding.find_agent(str(path), {"difficulty": 4})
 
 
 def test_a_run_stores_episodes_of_its_first_setting(tmp_path):

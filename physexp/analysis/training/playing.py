@@ -35,7 +35,7 @@ def play(
     num_steps: int = 0,
     show: Callable[[int], None] = lambda done: None,
 ) -> Episodes:
-    """Returns episodes that a network has played in the task of a configuration.
+    """Returns episodes that a network has played in the task of a configuration; of several settings, in the first.
 
     The interaction is `learned`, or `random` for the paper's randomized interaction; see `randomized`. `greedy` takes
     the likeliest action instead of drawing one. With a least number of environment steps, `num_steps`, whole rounds are
@@ -48,7 +48,7 @@ def play(
         raise ValueError(f"episodes is {num_episodes}; give a number >= 1")
     network.to(devices.choose(device, network.sees_images))
     batch_size = _BATCH if num_steps else min(num_episodes, _BATCH)
-    environment = trainer.make_environment(config, seed, batch_size, num_threads)
+    environment = trainer.make_environment(config.settings[0], seed, batch_size, num_threads)
     num_interactions = environment.task.num_interactions
     rounds: list[Episodes] = []
     count = steps = 0
