@@ -15,6 +15,7 @@ from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import finding, playing, publishing, trainer
 from physexp.analysis.training import run as run_lib
 from physexp.cli import parsing
+from physexp.suite.engine import options
 
 
 @pytest.fixture(scope="module")
@@ -28,7 +29,7 @@ def published(tmp_path_factory):
 def parsed(command):
     _, *arguments = shlex.split(command)
     train = parsing.parse(arguments)
-    return train.domain, train.task, train.task_kwargs, train.config
+    return train.domain, train.task, train.task_kwargs, tuple(map(options.parsed, train.also)), train.config
 
 
 def test_the_card_has_the_provenance_and_the_evaluation(published):
@@ -59,7 +60,8 @@ def test_the_agent_is_the_runs_rounded_to_half_precision(published):
 @pytest.mark.parametrize("name", pretrained.names())
 def test_the_command_of_an_agent_of_the_package_describes_it(name):
     card = pretrained.card_named(name)
-    expected = card["domain"], card["task"], card["task_kwargs"], finding.config_of(card).agent
+    config = finding.config_of(card)
+    expected = card["domain"], card["task"], card["task_kwargs"], config.also, config.agent
     assert parsed(card["command"]) == expected
 
 
@@ -80,7 +82,7 @@ def test_every_field_of_an_agent_survives_the_command_line(algorithm):
     changed = preset.replace(**{field: _another(value) for field, value in dataclasses.asdict(preset).items()})
     for task_kwargs in ({}, {"control_timestep": 0.1 + 2**-30, "variation": 0.5}):
         config = config_lib.TrainConfig(domain="towers", task="fist_features", task_kwargs=task_kwargs, agent=changed)
-        assert parsed(finding.command(config)) == ("towers", "fist_features", task_kwargs, changed)
+        assert parsed(finding.command(config)) == ("towers", "fist_features", task_kwargs, (), changed)
 
 
 HEADER = ",".join(run_lib.METRICS) + "\n"
