@@ -7,6 +7,7 @@ export { Player, World, element, judge };
 
 const STORE = "physexp";
 const PAUSE = 400; // ms, between the actions of a link.
+const LONGEST = 10; // s, that a judgement may take.
 
 const inflated = async (bytes) => {
   if (bytes[0] !== 0x1f) return bytes; // A server that says so has had it inflated.
@@ -31,13 +32,24 @@ export async function start(program = inline("program")) {
 const tasks = async () => JSON.parse(inline("tasks") ?? (await (await fetched("tasks.json")).text()));
 export const taskOf = async (file) => JSON.parse(inline(file) ?? (await (await fetched(`${file}.json`)).text()));
 
+// Services that the page may be served with take records.
+const serviceOf = (name) => document.querySelector(`meta[name=${name}]`)?.content;
+const post = (service, record, settings) => fetch(service, { method: "POST", body: JSON.stringify(record), ...settings });
+
+// Returns the mistakes in a record.
+async function mistakesIn(record) {
+  const settings = { signal: AbortSignal.timeout(1000 * LONGEST) };
+  const response = await post(serviceOf("mistakes"), { player: records.player(), ...record }, settings);
+  if (!response.ok) throw new Error(await response.text());
+  return response.json();
+}
+
 const records = {
   all: () => JSON.parse(localStorage.getItem(STORE) ?? "[]"),
   add(record) {
     const kept = { player: records.player(), ...record };
     localStorage.setItem(STORE, JSON.stringify([...records.all(), kept]));
-    const service = document.querySelector("meta[name=records]")?.content;
-    if (service) fetch(service, { method: "POST", body: `${JSON.stringify(kept)}\n` });
+    if (serviceOf("records")) post(serviceOf("records"), kept);
   },
   player() {
     const given = new URLSearchParams(location.search).get("player") ?? localStorage.getItem(`${STORE}-player`);
@@ -70,7 +82,8 @@ class Page {
       if (!this.player.isReplay) records.add(record);
       this.navigate();
     };
-    this.player = new Player(this.root, this.mujoco, task, { onEnd, next });
+    const judge = serviceOf("mistakes") ? mistakesIn : null;
+    this.player = new Player(this.root, this.mujoco, task, { onEnd, next, judge });
     const played = records.all().filter((record) => record.task === task.name).length;
     this.begin(episode === undefined ? played % task.instances.length : this.instanceOf(task, episode), Boolean(actions));
     for (const action of actions ?? []) {

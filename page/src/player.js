@@ -20,9 +20,9 @@ const worth = (value) => value.toFixed(2).replace("-", "\u2212");
 const nextFrame = () => new Promise((resolve) => requestAnimationFrame(resolve));
 
 export class Player {
-  // `onEnd` gets the record of each episode, `next` begins another one.
-  constructor(root, mujoco, task, { onEnd = () => {}, next = null } = {}) {
-    Object.assign(this, { root, task, onEnd, next, world: new World(mujoco, task) });
+  // `onEnd` gets the record of each episode, `next` begins another one, `judge` finds the mistakes in a record.
+  constructor(root, mujoco, task, { onEnd = () => {}, next = null, judge = null } = {}) {
+    Object.assign(this, { root, task, onEnd, next, judge, world: new World(mujoco, task) });
     const part = (name, tag = "section") => (this[name] = element(tag, { className: name }));
     this.canvas = element("canvas");
     root.replaceChildren(
@@ -311,17 +311,45 @@ export class Player {
     const isRight = rightCount === task.num_questions;
     const verdict = task.num_questions > 1 ? `${rightCount} of ${task.num_questions} right` : isRight ? "Right" : "Wrong";
     const next = this.next && element("button", { className: "next", textContent: "Next", onclick: () => this.next() });
+    const mistakes = element("div", { className: "mistakes" });
+    if (this.judge) this.tellMistakes(mistakes);
     const others = Object.entries(instance.others ?? {}).map(([name, taken]) => moves(name, taken));
     this.result.replaceChildren(
       element("h2", { className: isRight ? "right" : "wrong", textContent: `${isRight ? "\u2713" : "\u2717"} ${verdict}: ${answers}` }),
       element("p", { textContent: `${this.isReplay ? "It earns" : "You earn"} ${worth(judged.earned)}.` }),
       element("table", {}, moves(this.isReplay ? "replay" : "you", actions), ...others),
+      mistakes,
       ...(next ? [next] : []),
     );
     this.result.hidden = false;
     this.experiments.hidden = this.answers.hidden = true;
     this.reveal();
     next?.focus({ preventScroll: true });
+  }
+
+  // Writes the mistakes in the moves, and what each cost, when they are found.
+  async tellMistakes(written) {
+    const { task } = this;
+    written.textContent = "Judging the moves ...";
+    try {
+      const found = await this.judge(this.record());
+      const { actions } = this.world;
+      const row = ({ step, kind, meaning, cost }) =>
+        element(
+          "tr",
+          {},
+          element("td", { textContent: `${step + 1}. ${task.actions[actions[step]]}` }),
+          element("td", {}, element("b", { textContent: kind }), `: ${meaning}`),
+          element("td", { textContent: worth(-cost) }),
+        );
+      written.replaceChildren(
+        element("h2", { textContent: found.length ? "Mistakes, and what each cost" : "No mistake: the ideal could do no better" }),
+        element("table", {}, ...found.map(row)),
+      );
+    } catch (error) {
+      const why = error.name === "TimeoutError" ? "it takes too long here" : error.message;
+      written.textContent = `The moves are not judged: ${why}.`;
+    }
   }
 
   // Writes what was hidden beside the things.

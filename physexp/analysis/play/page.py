@@ -1,7 +1,7 @@
 """The page: writes it as files that any host serves or as one file, and serves it on this machine."""
 
 import base64
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import contextlib
 import functools
 import html
@@ -9,13 +9,16 @@ import http.server
 import json
 from pathlib import Path
 import shutil
+import threading
 from typing import IO, Any
 import webbrowser
 
 from physexp import suite
 from physexp.analysis.data import episodes
+from physexp.analysis.ideal import mistakes
 from physexp.analysis.play import exporting, others
 from physexp.analysis.score import protocol
+from physexp.analysis.score import records as records_lib
 from physexp.analysis.training import callbacks
 
 SITE = Path(__file__).parent / "site"
@@ -25,7 +28,7 @@ PROGRAM = "mujoco.wasm.gz"
 INSTANCES, MOST_INSTANCES = 20, 1000  # Of each task.
 _NAMES = {others.IDEAL: "the ideal", others.TRAINED: "our agent"}
 _LOOPBACK = "127.0.0.1"
-_RECORDS = "records"
+_RECORDS, _MISTAKES = "records", "mistakes"
 _LARGEST_RECORD = 1_000_000  # Bytes.
 
 
@@ -107,42 +110,45 @@ def _inline(text: str) -> str:
 
 
 class _Handler(http.server.SimpleHTTPRequestHandler):
-    """Serves the page, and appends the records that it sends to a file."""
+    """Serves the page, appends the records that it sends to a file, and judges them."""
 
-    def __init__(self, *args: Any, tasks: dict[str, str], records: IO[str] | None, **kwargs: Any):
-        self._tasks, self._records = tasks, records
-        super().__init__(*args, directory=str(SITE), **kwargs)
+    def __init__(
+        self,
+        *args: Any,
+        tasks: dict[str, str],
+        takers: dict[str, Callable[[bytes], str]],
+        tell: callbacks.Tell,
+        **kw: Any,
+    ):
+        self._tasks, self._takers, self._tell = tasks, takers, tell
+        super().__init__(*args, directory=str(SITE), **kw)
 
     def do_GET(self) -> None:
         name = self.path.partition("?")[0].lstrip("/")
         if name in ("", "index.html"):
-            page, meta = (SITE / "index.html").read_text(), f'<meta name="records" content="{_RECORDS}">'
-            self._send(page.replace("<title>", f"{meta}<title>") if self._records else page, "text/html")
+            metas = "".join(f'<meta name="{taker}" content="{taker}">' for taker in self._takers)
+            self._send((SITE / "index.html").read_text().replace("<title>", f"{metas}<title>"), "text/html")
         elif name.removesuffix(".json") in self._tasks:
             self._send(self._tasks[name.removesuffix(".json")], "application/json")
         else:
             super().do_GET()
 
     def do_POST(self) -> None:
-        size = int(self.headers.get("Content-Length", 0))
+        size, taker = int(self.headers.get("Content-Length", 0)), self._takers.get(self.path.lstrip("/"))
         # Another page that is open in the browser may not write here.
-        host = self.headers.get("Host", "")
-        if (
-            self._records is None
-            or self.path != f"/{_RECORDS}"
-            or size > _LARGEST_RECORD
-            or self.headers.get("Origin") != f"http://{host}"
-        ):
+        is_own = self.headers.get("Origin") == f"http://{self.headers.get('Host', '')}"
+        if taker is None or size > _LARGEST_RECORD or not is_own:
             self.send_error(http.HTTPStatus.FORBIDDEN)
             return
-        line = json.dumps(json.loads(self.rfile.read(size)))
-        self._records.write(f"{line}\n")
-        self._records.flush()
-        self._send("", "text/plain")
+        try:
+            self._send(taker(self.rfile.read(size)), "application/json")
+        except ValueError as error:
+            self._tell(f"refused: {error}")
+            self._send(str(error), "text/plain", http.HTTPStatus.BAD_REQUEST)
 
-    def _send(self, text: str, kind: str) -> None:
+    def _send(self, text: str, kind: str, status: http.HTTPStatus = http.HTTPStatus.OK) -> None:
         content = text.encode()
-        self.send_response(http.HTTPStatus.OK)
+        self.send_response(status)
         self.send_header("Content-Type", f"{kind}; charset=utf-8")
         self.send_header("Content-Length", str(len(content)))
         self.end_headers()
@@ -152,16 +158,52 @@ class _Handler(http.server.SimpleHTTPRequestHandler):
         """Writes nothing."""
 
 
-def server(tasks: dict[str, exporting.Data], records: IO[str] | None) -> http.server.ThreadingHTTPServer:
-    """Returns a server of the page for this machine alone, which writes records into an open file if there is one."""
-    handler = functools.partial(_Handler, tasks=_contents(tasks), records=records)
+def _parse(content: bytes) -> records_lib.Record:
+    return records_lib.parse("a record of the page", content)
+
+
+def _keep(file: IO[str], content: bytes) -> str:
+    """Appends a record to a file; raises ValueError if it is none."""
+    _parse(content)
+    file.write(f"{json.dumps(json.loads(content))}\n")
+    file.flush()
+    return ""
+
+
+def _judge(lock: threading.Lock, content: bytes) -> str:
+    """Returns the mistakes in a record, as JSON; raises ValueError if it is none, or cannot be played again."""
+    record = _parse(content)
+    with lock:  # Judgements share tables.
+        columns = records_lib.judged(record)
+    costs = columns["regret"] * record.question.discount ** columns["step"]
+    found = [
+        {"step": step, "kind": kind, "meaning": mistakes.KINDS[kind], "cost": cost}
+        for step, (kind, cost) in enumerate(zip(columns["mistake"], costs.tolist(), strict=True))
+        if kind
+    ]
+    return json.dumps(found)
+
+
+def server(
+    tasks: dict[str, exporting.Data], records: IO[str] | None, tell: callbacks.Tell = callbacks.ignore
+) -> http.server.ThreadingHTTPServer:
+    """Returns a server of the page for this machine alone, which writes records into an open file if there is one.
+
+    It judges records, too, if it can judge all tasks. `tell` is called with a line for each record that is refused.
+    """
+    takers: dict[str, Callable[[bytes], str]] = {}
+    if records is not None:
+        takers[_RECORDS] = functools.partial(_keep, records)
+    if all(map(protocol.is_judged, protocol.named([task["name"] for task in tasks.values()]))):
+        takers[_MISTAKES] = functools.partial(_judge, threading.Lock())
+    handler = functools.partial(_Handler, tasks=_contents(tasks), takers=takers, tell=tell)
     return http.server.ThreadingHTTPServer((_LOOPBACK, 0), handler)
 
 
 def serve(tasks: dict[str, exporting.Data], records: Path | None, tell: callbacks.Tell) -> None:
     """Serves the page, opens it in the browser, and appends records to a file if there is one, until interrupted."""
     opened = contextlib.nullcontext() if records is None else records.open("a", encoding="utf-8")
-    with opened as file, server(tasks, file) as service:
+    with opened as file, server(tasks, file, tell) as service:
         address = f"http://{_LOOPBACK}:{service.server_port}/"
         tell(f"serving {address} to this machine alone; Ctrl-C ends it")
         webbrowser.open(address)

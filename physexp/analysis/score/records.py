@@ -13,6 +13,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from physexp import checks, suite
 from physexp.agents import environment_loop
 from physexp.analysis.data import episodes
@@ -61,14 +63,15 @@ def read(path: Path, private: instances.Private | None = None) -> tuple[list[Rec
     found: dict[Any, Record] = {}
     lines = [(number, line) for number, line in enumerate(path.read_bytes().splitlines(), 1) if line.strip()]
     for number, line in lines:
-        record = _record(f"{path}, line {number}", line, private)
+        record = parse(f"{path}, line {number}", line, private)
         found.setdefault((record.player, record.question, record.seed, record.episode), record)
     if not found:
         raise ValueError(f"{path} has no records; give a file with a line of JSON for each episode")
     return list(found.values()), len(lines) - len(found)
 
 
-def _record(place: str, line: bytes, private: instances.Private | None) -> Record:
+def parse(place: str, line: bytes, private: instances.Private | None = None) -> Record:
+    """Returns the record of a line from a place, for messages; raises ValueError for a line that is none."""
     try:
         fields = json.loads(line)
     except ValueError:
@@ -148,14 +151,24 @@ def score(
         judge, rows = judging.Judge(question), defaultdict(list)
         with contextlib.closing(suite.load(question.domain, question.task, question.options)) as environment:
             for record in its:
-                episode = _played(environment, record)
-                judgement = mistakes.actions(judge(episode.hidden, episode.actions), episode.actions)
-                judged = log.judged(question, episode.actions, judgement)
-                rows[record.player].append({**log.played(question, episode), **judged})
+                rows[record.player].append(_judged(environment, judge, record))
                 show(done := done + 1)
         for player, columns in rows.items():
             found[player] += scores.of_log(log.table(log.SCHEMA, columns), {question: None})
     return dict(found)
+
+
+def judged(record: Record) -> dict[str, np.ndarray]:
+    """Returns the columns of the log of a record, T rows; raises ValueError as `score`."""
+    question = record.question
+    with contextlib.closing(suite.load(question.domain, question.task, question.options)) as environment:
+        return _judged(environment, judging.Judge(question), record)
+
+
+def _judged(environment: suite.Environment, judge: judging.Judge, record: Record) -> dict[str, np.ndarray]:
+    episode = _played(environment, record)
+    judgement = mistakes.actions(judge(episode.hidden, episode.actions), episode.actions)
+    return {**log.played(record.question, episode), **log.judged(record.question, episode.actions, judgement)}
 
 
 def _played(environment: suite.Environment, record: Record) -> episodes.Episode:

@@ -1,5 +1,6 @@
 """The page, in a browser: it computes the same bits as Python, tells no more than readings do, and writes records."""
 
+import contextlib
 import hashlib
 import itertools
 import json
@@ -17,7 +18,7 @@ import seeds
 
 from physexp import suite
 from physexp.analysis.play import exporting, page
-from physexp.analysis.score import protocol
+from physexp.analysis.score import protocol, records
 
 pytestmark = screens.needs_browser
 
@@ -185,26 +186,74 @@ def test_a_link_to_what_the_page_lacks_lists_what_it_has(query, said, made, tab)
     tab.errors.clear()
 
 
-def test_a_served_page_sends_its_records_and_takes_none_from_other_pages(made, tab, tmp_path):
-    path = tmp_path / "records.jsonl"
-    with path.open("w") as records, page.server(made[0], records) as server:
+@contextlib.contextmanager
+def served(tasks, path):
+    """Yields the address of a page that keeps records, and the lines that it tells."""
+    told = []
+    with path.open("w") as file, page.server(tasks, file, told.append) as server:
         thread = threading.Thread(target=server.serve_forever)
         thread.start()
         try:
-            address = f"http://127.0.0.1:{server.server_port}"
-            tab.open(f"{address}/?task=threshold/features&episode=0")
-            tab.wait("document.body?.dataset.state == 'ready' && !document.querySelector('aside button').disabled")
-            tab.press("9")  # The first answer.
-            tab.wait("!physexp.player.result.hidden")
-            with pytest.raises(urllib.error.HTTPError, match="403"):
-                other = urllib.request.Request(f"{address}/records", b"{}", {"Origin": "http://elsewhere"})
-                urllib.request.urlopen(other)
-            tab.wait("performance.getEntriesByName(`${location.origin}/records`).length")
+            yield f"http://127.0.0.1:{server.server_port}", told
         finally:
             server.shutdown()
             thread.join()
-    (record,) = map(json.loads, path.read_text().splitlines())
-    assert record["actions"] == [8] and record["episode"] == 0
+
+
+def answer(tab):
+    """Gives the first answer of Threshold by its key, when the page waits for an action."""
+    tab.wait("document.body?.dataset.state == 'ready' && !document.querySelector('aside button').disabled")
+    tab.press("9")
+    tab.wait("!physexp.player.result.hidden")
+
+
+def test_a_served_page_sends_its_records_and_shows_the_mistakes_in_them(made, tab, tmp_path):
+    path, mistakes = tmp_path / "records.jsonl", "document.querySelector('.mistakes')"
+    with served(made[0], path) as (address, told):
+        tab.open(f"{address}/?task=threshold/features&episode=0")
+        answer(tab)
+        tab.wait(f"{mistakes}.querySelector('table') !== null")
+        shown = tab.evaluate(f"{mistakes}.innerText").split()
+        tab.evaluate("AbortSignal.timeout = () => AbortSignal.abort(new DOMException('', 'TimeoutError'))")
+        tab.click(".next")
+        answer(tab)
+        tab.wait(f"{mistakes}.innerText == 'The moves are not judged: it takes too long here.'")
+        assert "the ideal" in tab.evaluate("document.querySelector('.result').innerText")
+        tab.wait("performance.getEntriesByName(`${location.origin}/records`).length == 2")
+    assert not told and not tab.errors
+    kept, _ = records.read(path)
+    assert [(record.episode, record.actions) for record in kept] == [(EPISODES[0], (8,)), (EPISODES[1], (8,))]
+    question = kept[0].question
+    by_chance = 2 / len(question.label_names) - 1  # All answers are equally likely.
+    cost = protocol.ideal(question).value - by_chance
+    assert " ".join(shown).startswith(
+        f"Mistakes, and what each cost 1. {question.action_names[8]} early: an answer when"
+    )
+    assert shown[-1] == f"\u2212{cost:.2f}"
+
+
+TWICE = b'"seed": 0, "episode": 0, "actions": [8, 8], "times": [0, 0]'
+
+
+@pytest.mark.parametrize(
+    ("service", "content", "said"),
+    [
+        ("records", b'{"player": "me", "task"', "a record of the page is no object of JSON"),
+        ("records", b'{"player": "me", "task": "lump", "actions": [], "times": []}', "task is 'lump'; choose from"),
+        ("mistakes", b'{"player": "me", "task": "threshold/features", %s}' % TWICE, "ends after 1 of its 2 actions"),
+    ],
+)
+def test_a_record_that_is_none_is_refused_in_one_line(service, content, said, made, tmp_path):
+    path = tmp_path / "records.jsonl"
+    with served(made[0], path) as (address, told):
+        sent = urllib.request.Request(f"{address}/{service}", content, {"Origin": address})
+        with pytest.raises(urllib.error.HTTPError, match="400") as refused:
+            urllib.request.urlopen(sent)
+        answered = refused.value.read().decode()
+        with pytest.raises(urllib.error.HTTPError, match="403"):
+            urllib.request.urlopen(urllib.request.Request(sent.full_url, content, {"Origin": "http://elsewhere"}))
+    assert said in answered and "\n" not in answered
+    assert told == [f"refused: {answered}"] and path.read_text() == ""
 
 
 def test_the_built_page_is_of_the_sources_which_name_no_domain():
