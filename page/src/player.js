@@ -1,4 +1,5 @@
 // Plays one task: its scene, question, price, actions and readings, and after the answer what others did.
+import { scales } from "./scales.js";
 import { Scene } from "./scene.js";
 import { World, judge } from "./world.js";
 
@@ -57,7 +58,9 @@ export class Player {
     this.seenSoFar = [observation];
     this.times = [];
     this.isBusy = false;
-    this.scene.build(this.world.model, this.world.structure);
+    this.scales = scales(this.task, this.world);
+    const lines = this.scales.flatMap((scale) => scale.lines);
+    this.scene.build(this.world.model, this.world.structure, lines);
     this.pose = this.world.placed(observation);
     this.names();
     this.resize();
@@ -139,14 +142,14 @@ export class Player {
   draw() {
     this.scene.show(this.pose);
     this.scene.draw();
-    for (const { node, thing, above } of this.labels) {
-      const [x, y] = this.scene.locate(thing, above);
+    for (const { node, thing, above, at } of this.labels) {
+      const [x, y] = at ? this.scene.project(at) : this.scene.locate(thing, above);
       Object.assign(node.style, { left: `${100 * x}%`, top: `${100 * y}%` });
-      node.hidden = this.scene.isBelow(thing);
+      node.hidden = !at && this.scene.isBelow(thing);
     }
   }
 
-  // Writes the names of things that can be acted on, and of boards that show readings.
+  // Writes the names of things that can be acted on, those of boards that show readings, and numbers of scales.
   names() {
     const { task, world, scene } = this;
     const things = [...new Set(task.interactions.map(({ thing }) => thing))];
@@ -162,6 +165,12 @@ export class Player {
     this.labels = all
       .filter(({ thing, text }) => scene.find(thing) && !used.has(text) && used.add(text))
       .map(({ thing, text, isName }) => ({ thing, above: isName ? 0 : 1, node: this.mark(text, isName, thing) }));
+    for (const { name, thing, numbers } of this.scales)
+      for (const { value, at } of numbers) {
+        // Its name is written on a board, but not on a thing that is acted on.
+        const text = things.includes(thing) && value === numbers[0].value ? `${spoken(name)} ${number(value)}` : number(value);
+        this.labels.push({ at, node: element("span", { className: "number", textContent: text.replace("-", "\u2212") }) });
+      }
     this.marks.replaceChildren(...this.labels.map(({ node }) => node));
   }
 

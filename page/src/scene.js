@@ -11,7 +11,7 @@ const SHAPES = {
 };
 // What a shape is stretched by, along its axes, from its size.
 const SCALES = { 2: ([r]) => [r, r, r], 3: () => [1, 1, 1], 4: (size) => size, 5: ([r, half]) => [r, r, half], 6: (size) => size };
-const COLORS = { background: "#f3f1ec", floor: "#f3f1ec", mat: "#fbfaf7", band: "#8a5a2f" };
+const COLORS = { background: "#f3f1ec", floor: "#f3f1ec", mat: "#fbfaf7", band: "#8a5a2f", mark: "#8d867a" };
 
 export class Scene {
   constructor(canvas) {
@@ -22,13 +22,16 @@ export class Scene {
     this.camera.up.set(0, 0, 1);
   }
 
-  build(model, structure, world) {
-    Object.assign(this, { model, structure, world });
+  // Lines, ends in pairs, are on the floor.
+  build(model, structure, lines) {
+    Object.assign(this, { model, structure });
     this.scene = new THREE.Scene();
     this.scene.background = new THREE.Color(COLORS.background);
     this.scene.add(new THREE.HemisphereLight("#ffffff", "#d8d2c6", 2.0), this.sun());
     this.meshes = structure.geoms.map((name, geom) => this.mesh(geom));
     this.meshes.filter(Boolean).forEach((mesh) => this.scene.add(mesh));
+    const marks = new THREE.BufferGeometry().setFromPoints(lines.map((place) => new THREE.Vector3(...place)));
+    this.scene.add(new THREE.LineSegments(marks, new THREE.LineBasicMaterial({ color: COLORS.mark })));
     const [x, y, z] = model.cam_pos;
     const m = model.cam_mat0;
     const view = new THREE.Matrix4().set(m[0], m[1], m[2], x, m[3], m[4], m[5], y, m[6], m[7], m[8], z, 0, 0, 0, 1);
@@ -51,7 +54,8 @@ export class Scene {
   mesh(geom) {
     const { model, structure } = this;
     const [ground, mat] = [geom === structure.floor[0], geom === structure.floor[1]];
-    const isHidden = model.geom_group[geom] === HIDDEN;
+    const isStaged = structure.staged.includes(geom);
+    const isHidden = model.geom_group[geom] === HIDDEN && !isStaged;
     const kind = model.geom_type[geom];
     if (!(kind in SHAPES) || (isHidden && !structure.moving.includes(geom))) return null;
     const size = Array.from(model.geom_size.slice(3 * geom, 3 * geom + 3));
@@ -63,7 +67,7 @@ export class Scene {
     mesh.scale.set(...SCALES[kind](size));
     mesh.castShadow = !ground && !mat;
     mesh.receiveShadow = true;
-    mesh.visible = !isHidden && structure.placed.includes(geom);
+    mesh.visible = isStaged || (!isHidden && structure.placed.includes(geom));
     mesh.userData = { geom, kind, isGround: ground || mat };
     return mesh;
   }
@@ -135,8 +139,12 @@ export class Scene {
     if (!mesh) return null;
     const place = mesh.position.clone();
     place.z += above * mesh.scale.z;
-    place.project(this.camera);
-    return [(place.x + 1) / 2, (1 - place.y) / 2];
+    return this.project(place);
+  }
+
+  project(place) {
+    const { x, y } = new THREE.Vector3(...place).project(this.camera);
+    return [(x + 1) / 2, (1 - y) / 2];
   }
 
   isBelow(thing) {

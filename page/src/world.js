@@ -117,6 +117,11 @@ export class World {
       });
       if (task.sizes[k]) pose.sizes[geom] = evaluate(task.sizes[k], { value: [readings[name][column]] });
     });
+    structure.staged.forEach((geom, k) => {
+      const [rise, lean] = task.moves[k];
+      if (rise) pose.positions[3 * geom + 2] += evaluate(rise, readings)[0];
+      if (lean) pose.rotations.splice(9 * geom, 9, ...leaned(pose.rotations.slice(9 * geom, 9 * geom + 9), evaluate(lean, readings)[0]));
+    });
     return pose;
   }
 
@@ -128,8 +133,14 @@ export class World {
     else drawn.qpos.set(data.qpos);
     mujoco.mj_kinematics(model, drawn);
     const pose = { ...poses(drawn), sizes: shown.sizes };
-    for (const [geom] of structure.indicators)
-      if (!this.isSimulated(geom)) for (let i = 3 * geom; i < 3 * geom + 3; i++) pose.positions[i] = shown.positions[i];
+    const keep = (field, geom, width) => {
+      for (let i = width * geom; i < width * (geom + 1); i++) pose[field][i] = shown[field][i];
+    };
+    for (const [geom] of structure.indicators) if (!this.isSimulated(geom)) keep("positions", geom, 3);
+    for (const geom of structure.staged) {
+      keep("positions", geom, 3);
+      keep("rotations", geom, 9);
+    }
     return pose;
   }
 
@@ -137,6 +148,13 @@ export class World {
     return this.model.body_weldid[this.model.geom_bodyid[geom]] !== 0;
   }
 }
+
+// Returns a rotation that is followed by one about the y axis, rad.
+const leaned = (m, angle) => {
+  const [c, s] = [Math.cos(angle), Math.sin(angle)];
+  const row = (a, b, k) => [0, 1, 2].map((column) => a * m[column] + b * m[6 + column] + k * m[3 + column]);
+  return [...row(c, s, 0), ...row(0, 0, 1), ...row(-s, c, 0)];
+};
 
 // Views into MuJoCo's memory must be copied.
 const poses = (data) => ({ positions: Array.from(data.geom_xpos), rotations: Array.from(data.geom_xmat), sizes: {} });

@@ -107,7 +107,15 @@ def _rules(task: contract.Task, apparatus: apparatus_lib.Apparatus) -> Data:
         indicator.size and _traced(f"the size of {indicator.geom.full_identifier}", indicator.size, value=np.zeros(1))
         for indicator in task.scene.indicators
     ]
-    return {"controls": controls.tolist(), "drive": driven, "readings": found, "sizes": sizes}
+    seen = {name: np.zeros((1, *reading.shape)) for name, reading in task.readings.items()}
+
+    def staged(name: str, function: Any) -> tracing.Rule:
+        return function and _traced(
+            f"the staging of {name}", lambda *values: function(dict(zip(seen, values, strict=True))), **seen
+        )
+
+    moves = [[staged(s.geom.full_identifier, function) for function in (s.rise, s.lean)] for s in task.scene.staged]
+    return {"controls": controls.tolist(), "drive": driven, "readings": found, "sizes": sizes, "moves": moves}
 
 
 def _structure(task: contract.Task, structure: int, apparatus: apparatus_lib.Apparatus) -> Data:
@@ -130,6 +138,7 @@ def _structure(task: contract.Task, structure: int, apparatus: apparatus_lib.App
         "indicators": [
             [geom, each.reading, each.component, list(map(float, each.travel))] for geom, each in placing.indicators
         ],
+        "staged": [names.index(each.geom.full_identifier) for each in task.scene.staged],
     }
 
 

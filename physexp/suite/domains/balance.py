@@ -1,5 +1,6 @@
 """Balance: six blocks of which one has another weight, and the question which, and whether it is heavier or lighter."""
 
+from collections.abc import Mapping, Sequence
 import dataclasses
 import functools
 
@@ -47,6 +48,10 @@ _SPACING = 0.15  # m, between blocks
 _REACH = 0.34  # m, from where a block lies aside to where it lies on a pan
 _POINTER_Y, _POINTER_TRAVEL = -0.58, 0.34  # m
 _LATCH, _LATCH_TRAVEL = (0.0, 0.55), (0.2, 0.0, 0.0)  # m
+# To people the beam stands above the pans, and the lighter pan is raised with the blocks on it: farther than it is, by
+# which they see it, and always as far.
+_BEAM_HEIGHT, _LEAN = 0.2, 0.15  # m, rad
+_POST_HALF_SIZE, _CORD_HALF_SIZE = (0.008, 0.008, _BEAM_HEIGHT / 2), (0.003, 0.003, _BEAM_HEIGHT / 2)  # m
 _PAN_HALF_SIZE = (0.08, 0.47, 0.004)  # m
 _PAN_RGBA, _POINTER_RGBA = (0.55, 0.55, 0.60, 1.0), (0.15, 0.15, 0.18, 1.0)
 _LAMP_X, _LAMP_Z, _LAMP_TRAVEL = 0.15, -0.03, 0.06  # m: on a board, and under it when they are off.
@@ -111,9 +116,44 @@ def _across(block: int) -> float:
     return ((NUM_BLOCKS - 1) / 2 - block) * _SPACING
 
 
+def _end_rise(side: int, readings: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Returns by how much people see an end of the beam raised, m [N, 1]."""
+    return -side * ARM * _LEAN * readings["tilt"]
+
+
+def _pan_rise(side: int, readings: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Returns by how much people see a pan raised, m [N, 1]."""
+    return np.maximum(_end_rise(side, readings), 0)
+
+
+def _block_rise(block: int, readings: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Returns by how much people see a block raised with the pan that it lies on, m [N, 1]."""
+    left, right = SIDES.values()
+    place = readings["places"][:, block : block + 1]
+    on_left, on_right = np.maximum(left * place, 0), np.maximum(right * place, 0)
+    return on_left * _pan_rise(left, readings) + on_right * _pan_rise(right, readings)
+
+
+def _stage(room: arena.Laboratory, beam: mjcf.Element, blocks: Sequence[things.Block]) -> list[declarations.Staged]:
+    """Adds the pans, and a post and cords that images do not show; returns all that people see of the balance."""
+    post = room.add_scenery("post", _POST_HALF_SIZE, [0, 0, _POST_HALF_SIZE[2]], _POINTER_RGBA, is_drawn=False)
+    found = [
+        declarations.Staged(post),
+        declarations.Staged(beam, lean=lambda readings: _LEAN * readings["tilt"]),
+        *(declarations.Staged(block.geom, functools.partial(_block_rise, k)) for k, block in enumerate(blocks)),
+    ]
+    for name, side in SIDES.items():
+        pan = room.add_scenery(f"{name}_pan", _PAN_HALF_SIZE, [side * _REACH, 0, _PAN_HALF_SIZE[2]], _PAN_RGBA)
+        place = [side * ARM, 0, _CORD_HALF_SIZE[2]]
+        cord = room.add_scenery(f"{name}_cord", _CORD_HALF_SIZE, place, _POINTER_RGBA, is_drawn=False)
+        end = functools.partial(_end_rise, side)
+        found += [declarations.Staged(pan, functools.partial(_pan_rise, side)), declarations.Staged(cord, end)]
+    return found
+
+
 def _add_beam(room: arena.Laboratory) -> mjcf.Element:
     """Adds the beam of the balance and returns its hinge."""
-    beam = room.mjcf_model.worldbody.add("body", name="beam", pos=[0, 0, 0.2])
+    beam = room.mjcf_model.worldbody.add("body", name="beam", pos=[0, 0, _BEAM_HEIGHT])
     beam.add("geom", name="beam", type="box", size=[ARM, 0.005, 0.005], mass=_BEAM_MASS, group=rendering.UNDRAWN_GROUP)
     spring = dict(stiffness=_STIFFNESS, damping=_DAMPING, limited=True, range=[-STOP, STOP], **_STOPPING)
     return beam.add("joint", name="hinge", type="hinge", axis=[0, 1, 0], **spring)
@@ -129,8 +169,6 @@ class Balance(contract.Task):
         room = arena.Laboratory(**_ROOM, contact=False)
         hinge = _add_beam(room)
         latch = self.options.latch
-        for side, sign in SIDES.items():
-            room.add_scenery(f"{side}_pan", _PAN_HALF_SIZE, [sign * _REACH, 0, _PAN_HALF_SIZE[2]], _PAN_RGBA)
         blocks, torques = [], []
         for k in range(NUM_BLOCKS):
             is_suspect = k < num_suspects(self.options.difficulty)
@@ -138,6 +176,7 @@ class Balance(contract.Task):
             room.attach(cube).pos = [0, _across(k), things.HALF_SIZE]
             blocks.append(cube)
             torques.append(room.add_actuator(f"block_{k}", hinge, gear=[0.0 if latch else 1.0]))
+        staged = _stage(room, hinge.parent.geom["beam"], blocks)
         # With a latch these keep the places alone, and others load the beam when it is released.
         loads = [room.add_actuator(f"load_{k}", hinge) for k in range(NUM_BLOCKS)] if latch else torques
         self._loads = tuple(load.actuator.full_identifier for load in loads)
@@ -176,6 +215,7 @@ class Balance(contract.Task):
             label_names=questions_lib.LABELS if self.told else label_names,
             readings=readings,
             indicators=indicators,
+            staged=staged,
         )
 
     def _tell_questions(

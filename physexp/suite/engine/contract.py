@@ -29,6 +29,7 @@ class Scene:
       label_names: the answers, in words.
       readings: the features, by name.
       indicators: geoms that show readings in images.
+      staged: geoms that show readings to people alone.
       held: entities that look exactly as at the start until something moves them, each for itself.
       num_nuisances: how many numbers describe the variation of an episode; None if only the camera varies.
       num_structures: how many compiled models the hidden property chooses from.
@@ -39,6 +40,7 @@ class Scene:
     label_names: Sequence[str]
     readings: Mapping[str, declarations.Reading]
     indicators: Sequence[declarations.Indicator] = ()
+    staged: Sequence[declarations.Staged] = ()
     held: Sequence[composer.Entity] = ()
     num_nuisances: int | None = None
     num_structures: int = 1

@@ -82,6 +82,21 @@ class Indicator:
 
 
 @dataclasses.dataclass(frozen=True)
+class Staged:
+    """A geom that people see, also if images do not show it, and that moves as readings tell; images keep its place.
+
+    Attributes:
+      geom: the MJCF geom.
+      rise: returns by how much it is raised, m [N, 1], from readings, each [N, ...], by name; None if it stays.
+      lean: returns by how much it is turned about the y axis, rad [N, 1], likewise.
+    """
+
+    geom: Any
+    rise: Callable[[Mapping[str, np.ndarray]], np.ndarray] | None = None
+    lean: Callable[[Mapping[str, np.ndarray]], np.ndarray] | None = None
+
+
+@dataclasses.dataclass(frozen=True)
 class Circumstances:
     """The random variation of N episodes.
 

@@ -79,11 +79,20 @@ class Laboratory(composer.Arena):
         return self.mjcf_model.sensor.add("actuatorfrc", name=name, actuator=actuator)
 
     def add_scenery(
-        self, name: str, half_size: Sequence[float], pos: Sequence[float], rgba: Sequence[float]
+        self,
+        name: str,
+        half_size: Sequence[float],
+        pos: Sequence[float],
+        rgba: Sequence[float],
+        is_drawn: bool = True,
     ) -> mjcf.Element:
-        """Adds a box, by half its edges and its centre, m (3,), that is seen and touches nothing; returns its geom."""
+        """Adds a box, by half its edges and its centre, m (3,), that touches nothing; returns its geom.
+
+        Images show it if it is drawn.
+        """
+        look = dict(rgba=rgba, group=None if is_drawn else rendering.UNDRAWN_GROUP)
         return self.mjcf_model.worldbody.add(
-            "geom", name=name, type="box", size=half_size, pos=pos, rgba=rgba, contype=0, conaffinity=0
+            "geom", name=name, type="box", size=half_size, pos=pos, contype=0, conaffinity=0, **look
         )
 
     def add_cover(self, half_size: Sequence[float], x: float = 0.0) -> None:

@@ -39,8 +39,8 @@ SHORT = 6  # Actions, after which contacts still give equal numbers to 1e-9.
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
-    """A page with two tasks, in one file."""
-    tasks = page.prepare(protocol.named(["threshold/features", "strings/features"]), EPISODES)
+    """A page with some tasks, in one file."""
+    tasks = page.prepare(protocol.named(["threshold/features", "strings/features", "balance/features"]), EPISODES)
     return tasks, page.write_single(tmp_path_factory.mktemp("page") / "page.html", tasks)
 
 
@@ -108,7 +108,10 @@ def test_the_page_observes_the_same_bits_as_python_and_judges_as_it_does(name, t
     environment.close()
 
 
-@pytest.mark.parametrize(("name", "actions"), [("strings/features", [0, 1, 2]), ("threshold/features", [3, 1, 5])])
+@pytest.mark.parametrize(
+    ("name", "actions"),
+    [("strings/features", [0, 1, 2]), ("threshold/features", [3, 1, 5]), ("balance/features", [1, 5, 8])],
+)
 def test_nothing_drawn_before_the_answer_tells_more_than_the_readings(name, actions, tab):
     (question,) = protocol.named([name])
     data = exporting.export(question, range(24))
@@ -120,6 +123,33 @@ def test_nothing_drawn_before_the_answer_tells_more_than_the_readings(name, acti
             assert first["pose"] == second["pose"]
             pairs += data["instances"][k]["answers"] != data["instances"][j]["answers"]
     assert pairs > 5
+
+
+# Weighs blocks 0 to 2 on the left pan against the others.
+WEIGH = """(() => {
+  const {world} = physexp.player;
+  const before = world.placed(world.observation);
+  for (const action of [1, 4, 7, 11, 14, 17]) physexp.player.pose = world.placed(world.step(action));
+  physexp.player.draw();
+  const rise = (geom) => physexp.player.pose.positions[3 * geom + 2] - before.positions[3 * geom + 2];
+  const marks = [...document.querySelectorAll(".marks > span")];
+  return {
+    tilt: world.observation.tilt[0],
+    rises: Object.fromEntries(world.structure.geoms.map((name, geom) => [name, rise(geom)])),
+    places: Object.fromEntries(marks.map((mark) => [mark.textContent, parseFloat(mark.style.left)])),
+  };
+})()"""
+
+
+def test_a_pan_rises_with_its_blocks_and_a_board_stands_at_its_number(made, tab):
+    begin(tab, made[1], "task=balance/features")
+    found = tab.evaluate(WEIGH)
+    light, heavy = ("left", "right") if found["tilt"] > 0 else ("right", "left")
+    blocks = {"left": range(3), "right": range(3, 6)}
+    assert found["rises"][f"{light}_pan"] > 0.01 and found["rises"][f"{heavy}_pan"] == 0
+    for side in (light, heavy):
+        assert {found["rises"][f"block_{k}/geom"] for k in blocks[side]} == {found["rises"][f"{side}_pan"]}
+    assert found["places"]["tilt"] == pytest.approx(found["places"]["1" if light == "left" else "\u22121"], abs=1)
 
 
 def test_buttons_keys_and_things_are_played_and_the_record_is_played_again(made, tab):
@@ -174,7 +204,7 @@ def test_a_link_replays_an_episode_and_records_nothing(made, tab):
     [
         (
             "task=strings/features,num_pucks=4",
-            "no task strings/features,num_pucks=4; choose from threshold/features, strings/features",
+            "no task strings/features,num_pucks=4; choose from threshold/features, strings/features, balance/features",
         ),
         ("task=strings/features&episode=2", "no episode 2 of strings/features; choose from 0, 1, 57"),
     ],
