@@ -1,4 +1,5 @@
 // Plays one task: its scene, question, price, actions and readings, and after the answer what others did.
+import { plot, plotted } from "./plots.js";
 import { scales } from "./scales.js";
 import { Scene } from "./scene.js";
 import { World, judge } from "./world.js";
@@ -16,6 +17,7 @@ export const element = (tag, properties = {}, ...children) => {
   return made;
 };
 const spoken = (name) => name.replaceAll("_", " ");
+const titled = (name, { unit }) => (unit ? `${spoken(name)}, ${unit}` : spoken(name));
 const number = (value) => String(+value.toFixed(3) || 0);
 const worth = (value) => value.toFixed(2).replace("-", "\u2212");
 const nextFrame = () => new Promise((resolve) => requestAnimationFrame(resolve));
@@ -256,9 +258,17 @@ export class Player {
     const summary = element("summary", { textContent: "all numbers" });
     this.seen.replaceChildren(
       element("h2", { textContent: "Seen" }),
+      element("div", { className: "plots" }, ...plotted(task, this.seenSoFar).map((name) => this.plot(name))),
       isLong ? element("details", { open: wasOpen }, summary, table) : table,
     );
     this.seen.scrollTop = this.seen.scrollHeight;
+  }
+
+  plot(name) {
+    const reading = this.task.readings[name];
+    const title = titled(name, reading);
+    const rows = this.seenSoFar.map((seen) => Array.from(seen[name]));
+    return element("figure", { title: reading.meaning }, element("figcaption", { textContent: title }), plot(title, reading, rows, number));
   }
 
   table() {
@@ -273,8 +283,8 @@ export class Player {
         })),
       ),
     );
-    const heads = Object.entries(task.readings).map(([name, { names, components, unit, meaning }]) =>
-      element("th", { colSpan: names.length * components.length, title: meaning, textContent: unit ? `${spoken(name)}, ${unit}` : spoken(name) }),
+    const heads = Object.entries(task.readings).map(([name, reading]) =>
+      element("th", { colSpan: reading.names.length * reading.components.length, title: reading.meaning, textContent: titled(name, reading) }),
     );
     const cell = (seen, { name, place, limits }) => {
       const value = seen[name][place];

@@ -163,6 +163,9 @@ def test_buttons_keys_and_things_are_played_and_the_record_is_played_again(made,
     tab.wait("physexp.player.times.length == 2 && !physexp.player.isBusy")
     tab.press("5")
     tab.wait("physexp.player.times.length == 3 && !physexp.player.isBusy")
+    points = tab.evaluate("document.querySelector('.plot polyline').getAttribute('points')").split()
+    first, *heights = (float(point.split(",")[1]) for point in points)  # At first nothing pushes.
+    assert [(first - height) / (first - heights[1]) for height in heights] == pytest.approx([4 / 6, 1, 5 / 6])
     tab.click('aside [data-action="12"]')
     tab.wait("!physexp.player.result.hidden")
     record = json.loads(tab.evaluate("localStorage.physexp"))[-1]
