@@ -167,12 +167,12 @@ export class Player {
     this.labels = all
       .filter(({ thing, text }) => scene.find(thing) && !used.has(text) && used.add(text))
       .map(({ thing, text, isName }) => ({ thing, above: isName ? 0 : 1, node: this.mark(text, isName, thing) }));
-    for (const { name, thing, numbers } of this.scales)
-      for (const { value, at } of numbers) {
-        // Its name is written on a board, but not on a thing that is acted on.
-        const text = things.includes(thing) && value === numbers[0].value ? `${spoken(name)} ${number(value)}` : number(value);
-        this.labels.push({ at, node: element("span", { className: "number", textContent: text.replace("-", "\u2212") }) });
-      }
+    const write = (at, className, textContent) => this.labels.push({ at, node: element("span", { className, textContent }) });
+    for (const { name, thing, lines, numbers } of this.scales) {
+      // Its name is written on a board, but not on a thing that is acted on.
+      if (things.includes(thing)) write(lines[0], "number caption", spoken(name));
+      for (const { value, at } of numbers) write(at, "number", number(value).replace("-", "\u2212"));
+    }
     this.marks.replaceChildren(...this.labels.map(({ node }) => node));
   }
 
