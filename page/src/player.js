@@ -9,6 +9,7 @@ const FILM_FRAME = 40; // ms, of a film of what an answer leads to.
 const SLOW_FRAME = 80; // ms: slower frames have no shadows.
 const KEYS = "1234567890qwertyuiopasdfghjklzxcvbnm";
 const MOST_COLUMNS = 12; // Of the table of readings; more are shown on demand.
+const BESIDE = 0.02; // m, from a thing to what is written beside it.
 const MOST_BOARDS = 6; // Of one reading that are named in the scene.
 
 export const element = (tag, properties = {}, ...children) => {
@@ -173,6 +174,10 @@ export class Player {
       if (things.includes(thing)) write(lines[0], "number caption", spoken(name));
       for (const { value, at } of numbers) write(at, "number", number(value).replace("-", "\u2212"));
     }
+    world.structure.staged.forEach((geom, k) => {
+      const [x, y, z] = world.structure.start.geom_xpos.slice(3 * geom, 3 * geom + 3);
+      if (task.texts[k]) write([x, y - world.model.geom_size[3 * geom + 1] - BESIDE, z], "number", task.texts[k]);
+    });
     this.marks.replaceChildren(...this.labels.map(({ node }) => node));
   }
 

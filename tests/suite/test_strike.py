@@ -33,6 +33,18 @@ def test_the_right_strike_takes_the_puck_into_the_goal_and_no_other_does(seed, d
         assert (np.diff(ends) > 0).all() or ends[-1] >= 1.2  # Harder strikes go farther, until the lane ends.
 
 
+def test_the_marks_that_people_see_are_as_far_from_the_puck_as_they_say():
+    environment = suite.load("strike", "features")
+    environment.reset()
+    geoms = environment.physics.named.data.geom_xpos
+    marks = environment.task.scene.staged
+    for mark in marks:
+        distance = geoms[mark.geom.full_identifier, "x"] - geoms["puck/geom", "x"]
+        assert float(mark.text.removesuffix(" m")) == pytest.approx(distance)
+    near, far = 0.7 / 1.5, 0.7 * 1.5  # Of the goal.
+    assert any(near < float(mark.text.removesuffix(" m")) < far for mark in marks)
+
+
 def test_a_strike_that_is_played_out_leaves_the_barrier_where_it_was(seed):
     environment = suite.load("strike", "features", {"random": seed})
     environment.reset(hidden=np.array(3))

@@ -114,8 +114,16 @@ def _rules(task: contract.Task, apparatus: apparatus_lib.Apparatus) -> Data:
             f"the staging of {name}", lambda *values: function(dict(zip(seen, values, strict=True))), **seen
         )
 
+    texts = [each.text for each in task.scene.staged]
     moves = [[staged(s.geom.full_identifier, function) for function in (s.rise, s.lean)] for s in task.scene.staged]
-    return {"controls": controls.tolist(), "drive": driven, "readings": found, "sizes": sizes, "moves": moves}
+    return {
+        "controls": controls.tolist(),
+        "drive": driven,
+        "readings": found,
+        "sizes": sizes,
+        "moves": moves,
+        "texts": texts,
+    }
 
 
 def _structure(task: contract.Task, structure: int, apparatus: apparatus_lib.Apparatus) -> Data:

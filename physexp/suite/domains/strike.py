@@ -42,6 +42,8 @@ _COVER_X, _COVER_HALF_SIZE = _START + 0.175, (0.225, 0.06, 0.04)
 _GOAL_RGBA = (0.60, 0.78, 0.62, 1.0)
 _POKE_Y, _POKE_TRAVEL = -0.22, (0.8, 0, 0)  # m, of the board that shows how strong the last poke was
 _GATE_Y, _GATE_TRAVEL = 0.3, 1.0  # m, of the board that shows the last gate
+_MARKS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # m, from where the puck lies: those of the lane that people see
+_MARK_Y, _MARK_HALF_SIZE, _MARK_RGBA = -0.13, (0.001, 0.02, 0.001), (0.55, 0.52, 0.47, 1.0)  # m
 _PLAYED_OUT = 2.5  # s, in which every strike comes to its end
 
 
@@ -87,6 +89,15 @@ class Strike(contract.Task):
         near, far = self.options.goal_distance / RATIO, self.options.goal_distance * RATIO
         room.add_cover(_COVER_HALF_SIZE, _COVER_X)
         room.add_scenery("goal", [(far - near) / 2, 0.1, 0.001], [_START + (near + far) / 2, 0, 0.002], _GOAL_RGBA)
+        marks = [
+            declarations.Staged(
+                room.add_scenery(
+                    f"mark_{k}", _MARK_HALF_SIZE, [_START + place, _MARK_Y, 0], _MARK_RGBA, is_drawn=False
+                ),
+                text=f"{place:g} m",
+            )
+            for k, place in enumerate(_MARKS)
+        ]
         struck = things.puck(things.COLORS[0], mass=1.0)
         limits = dict(limited=True, range=[0, BAY], **_FRICTION, **_BARRIER)
         rail = room.put_on_rail(struck, [_START, 0, 0.01 + things.PUCK_HALF_HEIGHT], [1, 0, 0], **limits)
@@ -110,6 +121,7 @@ class Strike(contract.Task):
                 things.stand_flag(room, "strength", things.COLORS[2], (_START, _POKE_Y), "strength", _POKE_TRAVEL),
                 things.stand_flag(room, "gate", things.COLORS[3], (_START, _GATE_Y), "gate", gate_travel),
             ],
+            staged=marks,
         )
 
     @property

@@ -89,11 +89,13 @@ class Staged:
       geom: the MJCF geom.
       rise: returns by how much it is raised, m [N, 1], from readings, each [N, ...], by name; None if it stays.
       lean: returns by how much it is turned about the y axis, rad [N, 1], likewise.
+      text: is written beside it.
     """
 
     geom: Any
     rise: Callable[[Mapping[str, np.ndarray]], np.ndarray] | None = None
     lean: Callable[[Mapping[str, np.ndarray]], np.ndarray] | None = None
+    text: str = ""
 
 
 @dataclasses.dataclass(frozen=True)
