@@ -9,6 +9,7 @@ import http.server
 import json
 from pathlib import Path
 import shutil
+import sys
 import threading
 from typing import IO, Any
 import webbrowser
@@ -158,6 +159,14 @@ class _Handler(http.server.SimpleHTTPRequestHandler):
         """Writes nothing."""
 
 
+class _Server(http.server.ThreadingHTTPServer):
+    """Prints an error of a request, unless the page was closed or no longer waits for the answer."""
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        if not isinstance(sys.exception(), ConnectionError):
+            super().handle_error(request, client_address)
+
+
 def _parse(content: bytes) -> records_lib.Record:
     return records_lib.parse("a record of the page", content)
 
@@ -197,7 +206,7 @@ def server(
     if all(map(protocol.is_judged, protocol.named([task["name"] for task in tasks.values()]))):
         takers[_MISTAKES] = functools.partial(_judge, threading.Lock())
     handler = functools.partial(_Handler, tasks=_contents(tasks), takers=takers, tell=tell)
-    return http.server.ThreadingHTTPServer((_LOOPBACK, 0), handler)
+    return _Server((_LOOPBACK, 0), handler)
 
 
 def serve(tasks: dict[str, exporting.Data], records: Path | None, tell: callbacks.Tell) -> None:

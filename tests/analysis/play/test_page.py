@@ -6,6 +6,9 @@ import itertools
 import json
 from pathlib import Path
 import re
+import select
+import socket
+import struct
 import threading
 import urllib.error
 import urllib.request
@@ -15,6 +18,7 @@ import numpy as np
 import pytest
 import screens
 import seeds
+import waiting
 
 from physexp import suite
 from physexp.analysis.play import exporting, page
@@ -287,6 +291,28 @@ def test_a_record_that_is_none_is_refused_in_one_line(service, content, said, ma
             urllib.request.urlopen(urllib.request.Request(sent.full_url, content, {"Origin": "http://elsewhere"}))
     assert said in answered and "\n" not in answered
     assert told == [f"refused: {answered}"] and path.read_text() == ""
+
+
+def test_a_page_that_no_longer_waits_for_its_mistakes_leaves_no_traceback(made, tmp_path, capfd):
+    with served(made[0], tmp_path / "records.jsonl") as (address, told):
+        before, (host, port) = threading.active_count(), address.removeprefix("http://").split(":")
+        body = b'{"player": "me", "task": "threshold/features", "times": [0], "seed": 0, "episode": 0, "actions": [8]}'
+        lines = [
+            "POST /mistakes HTTP/1.1",
+            f"Host: {host}:{port}",
+            f"Origin: {address}",
+            f"Content-Length: {len(body)}",
+        ]
+        with socket.create_connection((host, int(port))) as closed:
+            closed.sendall("\r\n".join([*lines, "", ""]).encode() + body)
+
+            def is_taken():
+                return threading.active_count() > before or select.select([closed], [], [], 0)[0]
+
+            waiting.wait_until(is_taken, "the request is taken")
+            closed.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))  # It is reset.
+        waiting.wait_until(lambda: threading.active_count() == before, "the request is done")
+    assert not told and not capfd.readouterr().err
 
 
 def test_the_built_page_is_of_the_sources_which_name_no_domain():
