@@ -13,14 +13,14 @@ from physexp import checks, suite
 
 
 def cards() -> Iterator[Sequence[str]]:
-    """Yields the rows of the table of questions, with a moving picture of each."""
-    yield "an agent experiments", "question", "gamma"
+    """Yields a card for each question, with a moving picture."""
+    yield "an agent experiments", "question"
     for domain, names in suite.TASKS_BY_DOMAIN.items():
         task = suite.load_task(domain, names[0])
         words = domain.replace("_", " ").capitalize()
         picture = f"![{words}, played by an agent]({domain}.gif)"
         link = f'<a href="{play_page.NAME}?task={domain}/{names[0]}">Play it</a>'
-        yield picture, f"**{words}.** {task.question} {link}", f"{task.discount:g}"
+        yield picture, f"**{words}.** {task.question} Gamma is {task.discount:g}. {link}"
 
 
 def tasks() -> Iterator[Sequence[str]]:
@@ -90,6 +90,8 @@ class SuiteTable(SphinxDirective):
         lines = ["| " + " | ".join(row) + " |" for row in (head, ["---"] * len(head), *rows)]
         section = nodes.Element()
         self.state.nested_parse(StringList(lines, source=__file__), self.content_offset, section)
+        for table in section.findall(nodes.table):
+            table["classes"] += self.arguments
         return section.children
 
 
