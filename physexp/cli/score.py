@@ -162,21 +162,31 @@ def _score_records(path: Path, private: Path | None, as_json: bool) -> None:
         for player, its in named.items()
         for name, figures in its.items()
     ]
-    printing.show(named if as_json else rows, as_json)
+    printing.show(named if as_json else _with_beliefs(rows), as_json)
 
 
 def _figures(figures: Mapping[str, Any]) -> dict:
+    stated = figures.get("beliefs") or {}
     return {
         **_score(figures),
         "right": figures["success_rate"],
         "interactions": figures["mean_interactions"],
         "lost most by": _worst(figures["mistakes"]),
+        "log score": stated.get("log_score", ""),
+        "bits lost": stated.get("bits_lost", ""),
     }
+
+
+def _with_beliefs(rows: list[dict]) -> list[dict]:
+    """Returns rows without the columns about beliefs if none was stated."""
+    if any(row["bits lost"] != "" for row in rows):
+        return rows
+    return [{name: value for name, value in row.items() if name not in ("log score", "bits lost")} for row in rows]
 
 
 def _of_tasks(found: dict) -> list[dict]:
     """Returns a line for each task."""
-    return [{"task": name, **_figures(figures)} for name, figures in found["tasks"].items()]
+    return _with_beliefs([{"task": name, **_figures(figures)} for name, figures in found["tasks"].items()])
 
 
 def _of_tracks(found: dict) -> list[dict]:

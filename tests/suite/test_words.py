@@ -101,10 +101,11 @@ def test_questions_follow_one_another_and_each_belief_is_scored():
     earned = 1 + 0.95 * right[0] + 0.95**2 * right[1]
     assert f"earned {earned:.4f}" in last
     assert episode.log_scores == [
-        math.log([0.25, 0.75][answers[0]]),
-        math.log([words.LEAST_BELIEF, 1][answers[1]]),
+        math.log2([0.25, 0.75][answers[0]]),
+        math.log2([words.LEAST_BELIEF, 1][answers[1]]),
         None,
     ]
+    assert episode.record()["beliefs"] == [[0.25, 0.75], [0, 1], None]
 
 
 def test_an_image_is_what_is_observed():

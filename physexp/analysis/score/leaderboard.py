@@ -35,6 +35,12 @@ class Row:
         values = dict.fromkeys(one[fact] for one in agents if one.get(fact) is not None)
         return ", ".join({True: "yes", False: "no"}.get(value, f"{value:g}") for value in values)
 
+    @property
+    def bits_lost(self) -> float | None:
+        """The mean over its tasks of the bits that its stated beliefs lose; None if it has stated none."""
+        stated = [task["beliefs"] for task in self.found["tasks"].values() if task.get("beliefs")]
+        return float(np.mean([one["bits_lost"] for one in stated])) if stated else None
+
     def earned(self, track: str) -> float:
         """Returns the score of a track; 0 if it is not played."""
         return self.tracks[track]["score"] if track in self.tracks else 0.0

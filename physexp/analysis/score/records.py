@@ -1,7 +1,8 @@
 """Records of play by people, language models and others: reads them, plays them again in Python, and judges them.
 
 A record is a line of JSON: `player`, `task`, `seed` (of the environment; the `key_hash` of private instances instead),
-`episode`, `actions`, `times` (ms, one for each action), and further fields. Records come in any order, of any seeds and
+`episode`, `actions`, `times` (ms, one for each action), and further fields: `beliefs`, for instance, one before each
+action, the probabilities of all answers or null. Records come in any order, of any seeds and
 episodes, and of several players.
 """
 
@@ -19,7 +20,8 @@ from physexp import checks, suite
 from physexp.agents import environment_loop
 from physexp.analysis.data import episodes
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import instances, judging, log, protocol, scores, targets
+from physexp.analysis.score import beliefs, instances, judging, log, protocol, scores, targets
+from physexp.suite import words
 from physexp.suite.engine import seeding
 
 FACTS = ("player", "harness", "tools", "budget", "level", "digits")
@@ -38,6 +40,7 @@ class Record:
       seed, episode: of its environment, and its index there.
       actions: its actions.
       facts: those of its `FACTS` that it has.
+      stated: its beliefs.
       told: amounts that it has spent, by name.
       place: file and line, for messages.
     """
@@ -48,6 +51,7 @@ class Record:
     episode: int
     actions: tuple[int, ...]
     facts: Mapping[str, Any]
+    stated: beliefs.Stated
     told: Mapping[str, float]
     place: str
 
@@ -79,11 +83,14 @@ def parse(place: str, line: bytes, private: instances.Private | None = None) -> 
     if not isinstance(fields, dict):
         raise ValueError(f"{place} is no object of JSON; was the file cut off?")
     fields = {"told": {}, **fields}
-    for name, kind in {"player": str, "task": str, "actions": list, "times": list, "told": dict}.items():
+    for name, kind in {"player": str, "task": str, "actions": list, "told": dict}.items():
         if not isinstance(fields.get(name), kind):
             raise ValueError(f"{place}: {name} is {checks.shown(fields.get(name))}; give a {kind.__name__}")
-    if len(fields["times"]) != len(fields["actions"]):
-        raise ValueError(f"{place} has {len(fields['times'])} times for {len(fields['actions'])} actions; give as many")
+    count = len(fields["actions"])
+    fields.setdefault("beliefs", [None] * count)
+    for name in ("times", "beliefs"):
+        if not isinstance(given := fields.get(name), list) or len(given) != count:
+            raise ValueError(f"{place}: {name} is {checks.shown(given)}; give a list of {count}, one for each action")
     if (given := fields.get("key_hash")) != (private and private.key_hash):
         wanted = "give their --instances FILE" if private is None else f"that of the instances is {private.key_hash}"
         raise ValueError(f"{place}: key_hash, which names private instances, is {checks.shown(given)}; {wanted}")
@@ -94,11 +101,16 @@ def parse(place: str, line: bytes, private: instances.Private | None = None) -> 
         actions = tuple(checks.integer("an action", action, 0, allowed) for action in fields["actions"])
         given = fields.get("seed") if private is None else private.seed_of(question.name, episode)
         seed = checks.integer("seed", given, 0, seeding.LARGEST_SEED)
+        stated = {
+            step: words.distribution(given, len(question.label_names))
+            for step, given in enumerate(fields["beliefs"])
+            if given is not None
+        }
         told = {name: checks.at_least(0)(f"told {name}", amount) for name, amount in fields["told"].items()}
     except ValueError as error:
         raise ValueError(f"{place}: {error}") from None
     facts = {name: fields[name] for name in FACTS if name in fields}
-    return Record(fields["player"], question, seed, episode, actions, facts, told, place)
+    return Record(fields["player"], question, seed, episode, actions, facts, stated, told, place)
 
 
 def target(path: Path, which: instances.Instances, count: int) -> targets.Target:
@@ -132,7 +144,9 @@ def target(path: Path, which: instances.Instances, count: int) -> targets.Target
     def make(question: protocol.Question, index: int) -> environment_loop.Repeat:
         return environment_loop.Repeat(chosen[question, index].actions)
 
-    return targets.Target(found[0].player, False, asked, make, facts=facts)
+    stated = {question: [chosen[question, index].stated for index in range(count)] for question in asked}
+    has_stated = any(map(any, stated.values()))
+    return targets.Target(found[0].player, False, asked, make, facts=facts, stated=stated if has_stated else {})
 
 
 def score(
@@ -140,21 +154,27 @@ def score(
 ) -> dict[str, list[scores.TaskScore]]:
     """Returns the scores of each player in each task; `show` is called with the number of records that are judged.
 
+    A player that has stated a belief in any record has the metrics of its `beliefs` in each task.
+
     Raises ValueError for a record that cannot be played again, and for a task whose ideal experimenter is not known.
     """
     found: dict[str, list[scores.TaskScore]] = defaultdict(list)
     of_task: dict[protocol.Question, list[Record]] = defaultdict(list)
     for record in records:
         of_task[record.question].append(record)
-    done = 0
+    stating, done = {record.player for record in records if record.stated}, 0
     for question, its in of_task.items():
-        judge, rows = judging.Judge(question), defaultdict(list)
+        judge, rows, answers = judging.Judge(question), defaultdict(list), defaultdict(list)
         with contextlib.closing(suite.load(question.domain, question.task, question.options)) as environment:
             for record in its:
-                rows[record.player].append(_judged(environment, judge, record))
+                episode = _played(environment, record)
+                rows[record.player].append(_judged(judge, record, episode))
+                if record.player in stating:
+                    answers[record.player].append(beliefs.judged(question, episode, record.stated))
                 show(done := done + 1)
         for player, columns in rows.items():
-            found[player] += scores.of_log(log.table(log.SCHEMA, columns), {question: None})
+            scored = scores.of_log(log.table(log.SCHEMA, columns), {question: None})
+            found[player] += beliefs.added(scored, {question: answers[player]}) if player in stating else scored
     return dict(found)
 
 
@@ -162,11 +182,10 @@ def judged(record: Record) -> dict[str, np.ndarray]:
     """Returns the columns of the log of a record, T rows; raises ValueError as `score`."""
     question = record.question
     with contextlib.closing(suite.load(question.domain, question.task, question.options)) as environment:
-        return _judged(environment, judging.Judge(question), record)
+        return _judged(judging.Judge(question), record, _played(environment, record))
 
 
-def _judged(environment: suite.Environment, judge: judging.Judge, record: Record) -> dict[str, np.ndarray]:
-    episode = _played(environment, record)
+def _judged(judge: judging.Judge, record: Record, episode: episodes.Episode) -> dict[str, np.ndarray]:
     judgement = mistakes.actions(judge(episode.hidden, episode.actions), episode.actions)
     return {**log.played(record.question, episode), **log.judged(record.question, episode.actions, judgement)}
 

@@ -8,7 +8,7 @@ from typing import Any
 from physexp import checks
 from physexp.agents import files
 from physexp.analysis.data import provenance, tables
-from physexp.analysis.score import instances, judging, log, playing, protocol, scores, targets
+from physexp.analysis.score import beliefs, instances, judging, log, playing, protocol, scores, targets
 
 FILE = "score.json"
 _TRAINED = {
@@ -81,11 +81,14 @@ def score(
     facts = {"version": protocol.VERSION, "target": target.name, "greedy": target.greedy, "protocol": extent}
     agent = target.describe(questions)
     defining = {**facts, "agent": agent, "versions": provenance.versions()}
-    rows, moves = defaultdict(list), defaultdict(list)
+    rows, moves, answers = defaultdict(list), defaultdict(list), defaultdict(list)
     with playing.session(folder, target, timeout, defining) as session:
         for question, episode in session.play(questions, num_episodes, which):
             rows[question].append(log.played(question, episode))
             moves[question].append((episode.hidden, episode.actions))  # Images of many episodes are large.
+            if target.stated:
+                stated = target.stated[question][episode.index]
+                answers[question].append(beliefs.judged(question, episode, stated))
             show(session.num_played // 2)
         judged = judging.judge(moves, lambda done: show((session.num_played + done) // 2), which)
         found = log.table(
@@ -98,7 +101,11 @@ def score(
         )
         log.write(folder, found)
         ideals = {question: one.ideal for question, one in judged.items()}
-        metrics = scores.summary(scores.of_log(found, ideals, num_agents=target.num_agents))
+        scored = scores.of_log(found, ideals, num_agents=target.num_agents)
+        if target.stated:
+            beliefs.write(folder, {question: target.stated[question] for question in rows})
+            scored = beliefs.added(scored, answers)
+        metrics = scores.summary(scored)
         written = session.write(FILE, {**facts, "agent": {**agent, **(made or {})}}, metrics)
         finish(folder)
     return written

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from physexp.agents import core
 from physexp.analysis import domains
 from physexp.analysis.domains import base
-from physexp.analysis.score import actors, protocol
+from physexp.analysis.score import actors, beliefs, protocol
 from physexp.analysis.training import config as config_lib
 
 if TYPE_CHECKING:
@@ -34,6 +34,7 @@ class Target:
       agents: trained agents, by the task that they were trained on: for each task as many, which differ only in their
         seeds and play its episodes in turns.
       facts: facts about another target.
+      stated: beliefs that the player of records has stated, if any.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Target:
     make: actors.Make | None
     agents: "Mapping[protocol.Question, Sequence[finding.Agent]]" = dataclasses.field(default_factory=dict)
     facts: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    stated: beliefs.Beliefs = dataclasses.field(default_factory=dict)
 
     @property
     def num_agents(self) -> int:

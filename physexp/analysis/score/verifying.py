@@ -1,5 +1,6 @@
 """Verifies a score: plays the logged actions again and compares everything that follows from them."""
 
+from collections import defaultdict
 from collections.abc import Callable, Mapping
 import contextlib
 import functools
@@ -15,7 +16,7 @@ import physexp
 from physexp.agents import environment_loop
 from physexp.analysis.data import episodes, provenance
 from physexp.analysis.ideal import mistakes
-from physexp.analysis.score import instances, judging, log, playing, protocol, scores, scoring
+from physexp.analysis.score import beliefs, instances, judging, log, playing, protocol, scores, scoring
 
 _TOLERANCE = 1e-9  # Of floating-point numbers, on any machine.
 
@@ -36,7 +37,8 @@ def verify(
     expected = each * len(questions)
     if not 0 < len(logged) <= expected or (len(logged) < expected and written["complete"]):
         raise ValueError(f"{path} has {len(logged)} episodes instead of {expected}")
-    ideals = {}
+    ideals, stated = {}, beliefs.read(folder, questions, each)
+    answers: dict[protocol.Question, list[np.ndarray]] = defaultdict(list)
     for first, question in zip(range(0, len(logged), each), questions, strict=False):  # The last ones may be missing.
         its, judge = logged[first : first + each], judging.Judge(question)
         with contextlib.closing(protocol.load(question)) as environment:
@@ -50,10 +52,13 @@ def verify(
                 judged = mistakes.actions(judge(episode.hidden, episode.actions), episode.actions)
                 again = {**log.played(question, episode), **log.judged(question, episode.actions, judged)}
                 _compare(place, columns, again)
+                if stated:
+                    answers[question].append(beliefs.judged(question, episode, stated[question][index]))
                 show(first + index + 1)
         ideals[question] = scores.reference(question, len(its), which)
     version = written["version"]
-    metrics = scores.summary(scores.of_log(found, ideals, version, written["protocol"]["agents"]), version)
+    scored = scores.of_log(found, ideals, version, written["protocol"]["agents"])
+    metrics = scores.summary(beliefs.added(scored, answers) if stated else scored, version)
     for names, theirs, ours in playing.differences({name: written[name] for name in metrics}, metrics, _are_close):
         raise ValueError(
             f"{folder / scoring.FILE}: {', '.join(names)} is {theirs}, and {ours} by the log; score again, elsewhere"
@@ -95,7 +100,8 @@ def verify_once(folder: Path) -> None:
     """
     known = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "physexp" / "verified"
     known.mkdir(parents=True, exist_ok=True)
-    parts = [_sources(), *((folder / name).read_bytes() for name in (scoring.FILE, log.FILE))]
+    paths = [path for name in (scoring.FILE, log.FILE, beliefs.FILE) if (path := folder / name).exists()]
+    parts = [_sources(), *(path.read_bytes() for path in paths)]
     mark = known / hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
     if not mark.exists():
         verify(folder)

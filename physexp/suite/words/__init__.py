@@ -8,7 +8,7 @@
     print(episode.answer(3))
 """
 
-from physexp.suite.words.episode import LEAST_BELIEF, TOOLS, Episode, Refusal
+from physexp.suite.words.episode import LEAST_BELIEF, TOOLS, Episode, Refusal, distribution
 from physexp.suite.words.telling import LEVELS
 
-__all__ = ["LEAST_BELIEF", "LEVELS", "TOOLS", "Episode", "Refusal"]
+__all__ = ["LEAST_BELIEF", "LEVELS", "TOOLS", "Episode", "Refusal", "distribution"]

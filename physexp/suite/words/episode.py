@@ -54,8 +54,9 @@ class Episode:
       seed, index: seed of the environment and index of the episode: they rebuild its instance. No tool tells them.
       actions: the actions so far.
       times: ms from the beginning of the episode to each of them.
-      log_scores: for each answer, the logarithm of the probability that the last belief about its question gave to the
-        right one; None where no belief was stated.
+      beliefs: the belief that was stated before each of them, the probabilities of all answers; None where none was.
+      log_scores: for each answer, the base-2 logarithm of the probability that the last belief about its question gave
+        to the right one; None where no belief was stated.
       num_refused: number of calls that were refused.
       events: all that was said and done, in order. The first event has `begun`, the arguments that start the episode
         again. Another has a `call` with its `arguments`, and the `reply` or the reason why it was `refused`; or a text
@@ -95,10 +96,12 @@ class Episode:
         self.seed, self.index = int(self._task.options.random), self._task.episode
         self.actions: list[int] = []
         self.times: list[int] = []
+        self.beliefs: list[list[float] | None] = []
         self.log_scores: list[float | None] = []
         self.num_refused = 0
         self.events: list[dict[str, Any]] = []
-        self._belief: list[float] | None = None
+        self._belief: list[float] | None = None  # About the question that is asked now.
+        self._stated: list[float] | None = None  # Since the last action.
         self._first = self._teller.told(self._timestep.observation)
         self._instance = {"seed": self.seed} if secret is None else dict(secret)
         begun = {**self._instance, "index": self.index, "level": level, "digits": digits}
@@ -162,18 +165,13 @@ class Episode:
     def believe(self, probabilities: list[float]) -> str:
         """States how likely each answer is. It costs nothing. The last belief before an answer is scored.
 
-        The score is the logarithm of the probability of the right answer: 0 is the best, and honest numbers earn most.
+        The score is the base-2 logarithm of the probability of the right answer: 0 is the best, and honest numbers earn
+        most.
 
         Args:
             probabilities: The probability of each answer, in the order of the rules; their sum is 1.
         """
-        count = self._task.num_labels
-        is_list = isinstance(probabilities, (list, tuple)) and len(probabilities) == count
-        if not is_list or not all(checks.is_number(one) and one >= 0 for one in probabilities):
-            raise Refusal(f"probabilities is {checks.shown(probabilities)}; give a list of {count} numbers from 0 to 1")
-        if not abs(sum(probabilities) - 1) <= _ROUNDING:
-            raise Refusal(f"the sum of the probabilities is {sum(probabilities):g}; give numbers whose sum is 1")
-        self._belief = [float(probability) / sum(probabilities) for probability in probabilities]
+        self._belief = self._stated = distribution(probabilities, self._task.num_labels)
         return "Kept."
 
     @_tool
@@ -229,18 +227,18 @@ class Episode:
     def record(self) -> dict[str, Any]:
         """Returns the facts that rebuild the episode so far, and its results.
 
-        They are `seed`, or the entry in its place, `episode`, its index, `actions` and `times`; `level` and `digits`;
-        the number of calls that were `refused`, the discounted `return`, and `log_scores`.
+        They are `seed`, or the entry in its place, `episode`, its index, `actions`, `times` and `beliefs`; `level` and
+        `digits`; the number of calls that were `refused`, and the discounted `return`.
         """
         return {
             **self._instance,
             "episode": self.index,
             "actions": self.actions.copy(),
             "times": self.times.copy(),
+            "beliefs": self.beliefs.copy(),
             **{name: self.events[0]["begun"][name] for name in ("level", "digits")},
             "refused": self.num_refused,
             "return": float(self._task.ledger.returns[0]),
-            "log_scores": self.log_scores.copy(),
         }
 
     def _noted(self, name: Any, args: tuple[Any, ...], kwargs: Any) -> str:
@@ -309,20 +307,32 @@ class Episode:
         ledger, label = self._task.ledger, action - self._task.num_interactions
         self._timestep = self.environment.step(action)
         self.actions.append(action)
+        self.beliefs.append(self._stated)
+        self._stated = None
         if label < 0 and not self._timestep.last():
             return self._teller.told(self._timestep.observation)
         right, verdict = int(ledger.correct_answers[0]), "Time is over."
         if label >= 0:
             right = int(ledger.answers[0, ledger.num_answered[0] - 1])
             verdict = "Right." if label == right else "Wrong."
-            self.log_scores.append(None if self._belief is None else math.log(max(self._belief[right], LEAST_BELIEF)))
+            self.log_scores.append(None if self._belief is None else math.log2(max(self._belief[right], LEAST_BELIEF)))
             self._belief = None
         if not self._timestep.last():
             return f"{verdict} The next question follows.\n{self._teller.told(self._timestep.observation)}"
         scored = [f"{score:.3f}" for score in self.log_scores if score is not None]
-        believed = f" The log score of your belief is {', '.join(scored)}." if scored else ""
+        believed = f" The log score of your belief is {', '.join(scored)} bits." if scored else ""
         earned = f"You have earned {ledger.returns[0]:.4f}, and the episode is over."
         return f"{verdict} The right answer is {self._teller.label(right)}. {earned}{believed}"
+
+
+def distribution(probabilities: Any, count: int) -> list[float]:
+    """Returns a stated belief as floats whose sum, rounded when stated, is 1; raises `Refusal` for what is none."""
+    is_list = isinstance(probabilities, (list, tuple)) and len(probabilities) == count
+    if not is_list or not all(checks.is_number(one) and one >= 0 for one in probabilities):
+        raise Refusal(f"probabilities is {checks.shown(probabilities)}; give a list of {count} numbers from 0 to 1")
+    if not abs((total := sum(map(float, probabilities))) - 1) <= _ROUNDING:
+        raise Refusal(f"the sum of the probabilities is {total:g}; give numbers whose sum is 1")
+    return [probability / total for probability in probabilities]
 
 
 def _checked(number: Any, count: int) -> int:

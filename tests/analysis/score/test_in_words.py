@@ -120,7 +120,7 @@ def test_scripted_players_make_the_mistakes_that_their_scripts_say(player, kinds
 def test_a_player_that_is_greedy_for_information_halves_the_forces(tmp_path):
     found = run_with(tmp_path / "run", in_words.greedy("threshold", "features", num_instances=60), count=2)
     assert [record["return"] for record in found] == [pytest.approx(0.95**3)] * 2  # log2(8) pushes, and the answer.
-    assert [record["log_scores"] for record in found] == [[0.0]] * 2
+    assert [max(record["beliefs"][-1]) for record in found] == [1] * 2
 
 
 def test_a_run_that_broke_off_goes_on_where_it_was(tmp_path):

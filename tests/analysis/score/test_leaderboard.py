@@ -2,6 +2,7 @@
 
 import html
 import json
+import math
 from pathlib import Path
 import re
 import shutil
@@ -14,6 +15,7 @@ import pytest
 
 from physexp import cli
 from physexp.analysis.score import leaderboard, log, protocol, scores, scoring, targets, transcripts, verifying
+from physexp.suite import words
 
 ROOT = Path(__file__).parents[3]
 EPISODES = 4
@@ -163,6 +165,7 @@ def test_a_player_in_words_gets_a_row_that_tells_its_facts(copied, monkeypatch, 
     facts = {"model": "m 1", "harness": "h 2", "tools": "none", "budget": "a reply"}
     with transcripts.run(played, **facts) as run:
         for episode in run.episodes("threshold/features", 2):
+            episode.believe([0.5, 0.5, 0, 0, 0, 0, 0, 0])
             episode.answer(0)
             run.tell(tokens=600, cost=0.25)
     results, _ = copied
@@ -180,7 +183,8 @@ def test_a_player_in_words_gets_a_row_that_tells_its_facts(copied, monkeypatch, 
     assert not refused and "in words" in [row.name for row in rows]
     page = leaderboard.markdown(rows)
     told = "player m 1; harness h 2; tools none; budget a reply; level named; tokens 1,200; cost 0.5"
-    assert f"{told} | one player, 2 episodes of each task |" in page
+    lost = 6 / 8 * -math.log2(words.LEAST_BELIEF) + 2 / 8 * 1 - math.log2(8)  # All eight answers are as likely.
+    assert f"{told}; beliefs lose {lost:.3f} bits | one player, 2 episodes of each task |" in page
 
     change_facts(folder, agent={})
     _, (line,) = leaderboard.read(results)

@@ -1,6 +1,7 @@
 """Records of play: any order, any seed, several players; each is played again, and judged as a target is."""
 
 import json
+import math
 
 import commands
 import pytest
@@ -59,9 +60,16 @@ def test_players_in_any_order_get_the_scores_of_targets_that_play_so(tmp_path):
         (line(actions=[3], times=[1]), "the episode goes on after its 1 actions; some are missing"),
         (line(actions=[3, 99]), "an action is 99; give an integer >= 0 and <= 15"),
         (line(actions=[3, True]), "an action is True"),
-        (line(times=[1]), "has 1 times for 2 actions"),
+        (line(times=[1]), "times is [1]; give a list of 2, one for each action"),
         (line(task="threshold/nothing"), "task is 'threshold/nothing'; choose from"),
         (line(seed=-1), "seed is -1"),
+        (line(beliefs=[None]), "beliefs is [None]; give a list of 2, one for each action"),
+        (line(beliefs=[None, [0.5] + [0] * 7]), "the sum of the probabilities is 0.5; give numbers whose sum is 1"),
+        (
+            line(beliefs=[None, [2, -1] + [0] * 6]),
+            "probabilities is [2, -1, 0, 0, 0, 0, 0, 0]; give a list of 8",
+        ),
+        (line(beliefs=[[math.nan] * 8, None]), "probabilities is [nan, nan"),
         (line(player=3), "player is 3; give a str"),
     ],
 )
