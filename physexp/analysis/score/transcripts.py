@@ -32,10 +32,14 @@ class Run:
     """The episodes of a player."""
 
     def __init__(
-        self, file: IO[bytes], kept: Mapping[tuple[str, int], list[dict[str, Any]]], instances: instances_lib.Instances
+        self,
+        file: IO[bytes],
+        kept: Mapping[tuple[str, int], list[dict[str, Any]]],
+        instances: instances_lib.Instances,
+        last: Mapping[str, Any],
     ):
         self._file, self._kept, self._instances = file, kept, instances
-        self._last: dict[str, Any] = {}  # The task and the index of the episode that was played last.
+        self._last = last  # The task and the index of the episode that was played last; empty if none was.
 
     def episodes(
         self,
@@ -82,9 +86,12 @@ class Run:
     def tell(self, **amounts: float) -> None:
         """Keeps amounts that the client has spent since the last report, in the episode that was played last.
 
-        They may be its tokens and their cost, for instance; the record of an episode has their sums. Raises ValueError
-        for an amount that is no number.
+        They may be its tokens and their cost, for instance; the record of an episode has their sums. The run that
+        played it may be over: another one in its folder tells as well. Raises ValueError for an amount that is no
+        number, and if no episode was played.
         """
+        if not self._last:
+            raise ValueError(f"no episode of {self._file.name} was played; tell its amounts after one")
         for name, amount in amounts.items():
             checks.at_least(0)(name, amount)
         self._write({"time": time.time(), "told": amounts}, **self._last)
@@ -132,11 +139,13 @@ def run(
                     f"{path} has the {name} {theirs!r} instead of {ours!r}; give the same, or another folder"
                 )
             kept: dict[tuple[str, int], list[dict[str, Any]]] = {}
+            last: dict[str, Any] = {}
             for line in lines[1:]:
+                last = {name: line.pop(name) for name in ("task", "episode")}
                 if "told" not in line:
-                    kept.setdefault((line.pop("task"), line.pop("episode")), []).append(line)
+                    kept.setdefault((last["task"], last["episode"]), []).append(line)
             try:
-                yield Run(file, kept, instances)
+                yield Run(file, kept, instances, last)
             finally:
                 found = "".join(json.dumps(record) + "\n" for record in records(path))
                 files.write_atomically(folder / RECORDS, found.encode())

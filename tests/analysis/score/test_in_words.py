@@ -159,11 +159,16 @@ def test_a_run_that_broke_off_goes_on_where_it_was(tmp_path):
 def test_a_program_plays_and_its_client_tells_the_price(tmp_path):
     program = "import json, sys; print('Hm.' if len(json.load(sys.stdin)) == 2 else 'note(\"sure\")\\nanswer(1)')"
     with transcripts.run(tmp_path, **PLAYER) as run:
+        with pytest.raises(ValueError, match="no episode of .* was played; tell its amounts after one"):
+            run.tell(tokens=512)
         for episode in run.episodes("strike/features", 1):
             in_words.play(episode, in_words.program([sys.executable, "-c", program]))
-            run.tell(tokens=512, cost=0.25)
+            run.tell(tokens=500)
+    with transcripts.run(tmp_path, **PLAYER) as run:  # As for a client of a server, which cannot tell it.
+        run.tell(tokens=12, cost=0.25)
     lines = [json.loads(line) for line in (tmp_path / transcripts.TRANSCRIPT).read_text().splitlines()]
-    assert lines[0]["player"] == PLAYER and lines[-1]["told"] == {"tokens": 512, "cost": 0.25}
+    assert lines[0]["player"] == PLAYER and lines[-1]["told"] == {"tokens": 12, "cost": 0.25}
     assert [line.get("said") for line in lines[2:4]] == ["Hm.\n", 'note("sure")\nanswer(1)\n']
     (record,) = transcripts.records(tmp_path / transcripts.TRANSCRIPT)
     assert record["actions"] == [4] and record["refused"] == 1 and record["task"] == "strike/features"
+    assert record["told"] == {"tokens": 512, "cost": 0.25}
