@@ -81,8 +81,9 @@ def test_a_client_plays_every_task_and_the_server_ends_with_it(tmp_path):
     assert [record["task"] for record in records] == [question.name for question in protocol.named(FEATURES)]
 
 
-def test_clients_play_over_http_on_this_machine_alone_and_see_images(tmp_path):
-    with serving_http(tmp_path, "strings/features", "strings/pixels") as (server, address):
+def test_clients_play_every_task_over_http_and_see_images(tmp_path):
+    generator = random.Random(fresh_seed())
+    with serving_http(tmp_path, *FEATURES, "strings/pixels") as (server, address):
 
         async def play():
             async with mcp.Client(address) as one, mcp.Client(address) as other:
@@ -90,6 +91,8 @@ def test_clients_play_over_http_on_this_machine_alone_and_see_images(tmp_path):
                 await said(one, "experiment", episode=mine, number=0)
                 assert "You have done 1 of" in await said(one, "observe", episode=mine)
                 assert "You have done 0 of" in await said(other, "observe", episode=theirs)
+                for task in FEATURES:
+                    assert "the episode is over" in await play_at_random(other, task, generator)
                 result = await one.call_tool("begin", {"task": "strings/pixels"})
                 assert [part.type for part in result.content] == ["text", "image"]
 
