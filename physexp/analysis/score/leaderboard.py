@@ -84,7 +84,7 @@ def _row(folder: Path, verify: Callable[[Path], None]) -> Row:
     if extent["episodes"] not in (fewest, protocol.EPISODES):
         raise ValueError(f"{folder} has {extent['episodes']} episodes of each task; a row has {fewest:,}")
     if others := [name for name in extent["tasks"] or ["no task"] if name not in names]:
-        raise ValueError(f"{folder} is of {others[0]}; a row is of {', '.join(names)}")
+        raise ValueError(f"{folder} is of {others[0]}; a row is of tasks of the tracks {', '.join(protocol.TRACKS)}")
     verify(folder)
     logged = log.read(folder)
     played = scores.of_log(logged, dict.fromkeys(questions), num_agents=extent["agents"])

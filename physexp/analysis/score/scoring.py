@@ -119,6 +119,8 @@ def read(folder: Path) -> dict[str, Any]:
       ValueError: if there is none, or it is faulty.
     """
     path = folder / FILE
+    if (folder / playing.FILE).exists() and not path.exists():
+        raise ValueError(f"{folder} is not complete; the same `physexp score` goes on in it")
     if not path.exists():
         raise ValueError(f"{folder} holds no score ({FILE}); give a folder that `physexp score` has written")
     tables.check(path, tables.MAX_TEXT)

@@ -80,15 +80,18 @@ def _instances(folder: Path, written: Mapping[str, Any], private: Path | None) -
         private = private or folder / instances.FILE
         if not private.exists():
             raise ValueError(
-                f"{folder} is of private instances, whose key has the hash {extent['key_hash']}; give their file, "
-                "--instances FILE, which its author publishes when the scores are made"
+                f"{folder} is of private instances, whose key has the hash {extent['key_hash']}; put their file, which "
+                f"its author publishes when the scores are made, there as {instances.FILE}, or give --instances FILE"
             )
         which = instances.read(private, written["version"])
     elif private is not None:
         raise ValueError(f"{folder} is of the public instances; leave out --instances {private}")
     for name, value in which.facts.items():
         if extent[name] != value:
-            raise ValueError(f"{folder / scoring.FILE}: {name} is {extent[name]} instead of {value}")
+            raise ValueError(
+                f"{folder / scoring.FILE}: {name} is {extent[name]} instead of {value}, as of the instances at "
+                "hand; give those of the score"
+            )
     return which
 
 

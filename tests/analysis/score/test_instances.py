@@ -122,7 +122,7 @@ def test_a_score_of_private_instances_is_verified_with_their_file(run, refused, 
     assert not np.array_equal(protocol.drawn(THRESHOLD, 30, PRIVATE), protocol.drawn(THRESHOLD, 30))
 
     said = refused("verify", "private")
-    assert f"the hash {PRIVATE.key_hash}; give their file, --instances FILE" in said
+    assert f"the hash {PRIVATE.key_hash}; put their file, which its author" in said
     assert f"key_hash is {PRIVATE.key_hash} instead of {two.key_hash}" in refused(
         "verify", "private", "--instances", "two.json"
     )

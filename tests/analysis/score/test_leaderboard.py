@@ -14,7 +14,7 @@ import pyarrow
 import pytest
 
 from physexp import cli
-from physexp.analysis.score import leaderboard, log, protocol, scores, scoring, targets, transcripts, verifying
+from physexp.analysis.score import leaderboard, log, playing, protocol, scores, scoring, targets, transcripts, verifying
 from physexp.suite import words
 
 ROOT = Path(__file__).parents[3]
@@ -120,7 +120,7 @@ def shorten():
         ({"agent": {"player": "p", "told": {"tokens": "many"}}}, "tokens is 'many'"),
         ({"version": "v0"}, "is of protocol 'v0'"),
         ({"complete": False, "problem": "made:dies ended"}, "is not complete: made:dies ended"),
-        ({"protocol": {"seed": 2000003, "episodes": EPISODES, "tasks": []}}, "is of no task"),
+        ({"protocol": {"seed": 2000003, "episodes": EPISODES, "tasks": []}}, "is of no task; a row is of tasks of"),
         ({"protocol": {"seed": 2000003, "episodes": 2, "tasks": []}}, "has 2 episodes of each task; a row has 4"),
     ],
 )
@@ -189,6 +189,13 @@ def test_a_player_in_words_gets_a_row_that_tells_its_facts(copied, monkeypatch, 
     change_facts(folder, agent={})
     _, (line,) = leaderboard.read(results)
     assert "has 2 episodes of each task; a row has 4" in line
+
+
+def test_an_interrupted_score_is_no_row_and_can_go_on(copied):
+    results, folder = copied
+    (folder / scoring.FILE).rename(folder / playing.FILE)
+    _, (line,) = leaderboard.read(results)
+    assert line == f"{folder} is no row: {folder} is not complete; the same `physexp score` goes on in it"
 
 
 def test_without_scores_there_is_no_leaderboard(tmp_path):
