@@ -8,12 +8,12 @@ BIN = .venv/bin
 PYTEST = OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest
 HOW_TO_RUN = @echo 'To run physexp: $(BIN)/physexp --help; or without the folder, after: . $(BIN)/activate'
 
-.PHONY: help install demo test test-all soak lint docs page bench clean
+.PHONY: help install demo test test-all soak lint docs page bench example-inspect example-openenv clean
 .NOTPARALLEL: # Two installations at once would write into one environment.
 .DEFAULT_GOAL = help
 
 help: ## Show this list.
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-9s  %s\n", $$1, $$2}' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-15s  %s\n", $$1, $$2}' Makefile
 
 install: .venv/installed-all ## Install physexp into .venv with everything that its commands can use.
 	$(HOW_TO_RUN)
@@ -46,8 +46,15 @@ page: ## Build the page to play on into the package from its sources in `page`, 
 bench: .venv/installed-all ## Measure the speed of resets, batches and training.
 	$(BIN)/physexp bench
 
+example-inspect: .venv-inspect/installed ## Play Threshold in Inspect with a scripted model, and score it.
+	$(<D)/bin/python docs/examples/inspect_task.py runs/inspect
+	$(<D)/bin/physexp score --records runs/inspect/records.jsonl
+
+example-openenv: .venv-openenv/installed ## Play Threshold with OpenEnv's own client.
+	$(<D)/bin/python docs/examples/openenv_server.py
+
 clean: ## Remove .venv, builds and caches; runs stay.
-	rm -rf .venv build dist docs/_build *.egg-info .mypy_cache .pytest_cache .ruff_cache
+	rm -rf .venv .venv-* build dist docs/_build *.egg-info .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -prune -exec rm -rf {} +
 
 # A stamp for each extra of setup.cfg. torch goes first and with its exact version: a looser request fetches gigabytes of
@@ -55,6 +62,14 @@ clean: ## Remove .venv, builds and caches; runs stay.
 .venv/installed-%: setup.cfg pyproject.toml constraints.txt | $(BIN)/python
 	$(BIN)/python -m pip install -c constraints.txt setuptools "$$(grep '^torch==' constraints.txt)"
 	$(BIN)/python -m pip install -c constraints.txt --no-build-isolation -e '.[$*]'
+	@touch $@
+
+# Environments of their own: these libraries do not fit beside all of constraints.txt.
+.venv-inspect/installed: PIN = inspect-ai==0.3.285
+.venv-openenv/installed: PIN = openenv-core==0.3.0
+.venv-%/installed: | $(BIN)/python
+	$(BIN)/python -m venv $(@D)
+	$(@D)/bin/python -m pip install "$$(grep '^torch==' constraints.txt)" $(PIN) -e .
 	@touch $@
 
 $(BIN)/python:
