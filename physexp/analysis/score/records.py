@@ -78,7 +78,7 @@ def parse(place: str, line: bytes, private: instances.Private | None = None) -> 
     """Returns the record of a line from a place, for messages; raises ValueError for a line that is none."""
     try:
         fields = json.loads(line)
-    except ValueError:
+    except (ValueError, RecursionError):
         fields = None
     if not isinstance(fields, dict):
         raise ValueError(f"{place} is no object of JSON; was the file cut off?")

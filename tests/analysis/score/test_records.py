@@ -56,6 +56,7 @@ def test_players_in_any_order_get_the_scores_of_targets_that_play_so(tmp_path):
     ("bad", "message"),
     [
         ('{"player": "p1", "ta', "is no object of JSON; was the file cut off?"),
+        ("[" * 100_000, "is no object of JSON"),
         (line(actions=[3, 9, 9], times=[1, 2, 3]), "the episode ends after 2 of its 3 actions"),
         (line(actions=[3], times=[1]), "the episode goes on after its 1 actions; some are missing"),
         (line(actions=[3, 99]), "an action is 99; give an integer >= 0 and <= 15"),
