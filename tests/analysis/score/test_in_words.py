@@ -94,6 +94,8 @@ def run_with(folder, player, name="threshold/features", count=10, **kwargs):
         # It begins with 4 N, where 16 N would tell most; the first push that moves the block tells the answer, and it
         # answers 4 N, which is mostly wrong.
         (in_words.pokes_everything, {"inferior", "late", "wrong"}),
+        # It is taken off after many replies, which is to push with 4 N until the time is over.
+        (lambda messages: "Hm.", {"inferior", "late", "uninformative", "silence"}),
         # A block that slides with 4 N is known then; to another the same push tells nothing new, and it
         # answers 4 N, which is wrong, too early.
         (in_words.repeats_itself, {"inferior", "late", "uninformative", "early", "wrong"}),
