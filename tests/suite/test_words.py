@@ -142,7 +142,7 @@ def test_an_episode_goes_on_after_its_events():
     stored = json.loads(json.dumps(episode.events))
     kept = []
     again = words.Episode(load("strings/features"), 0, events=stored, keep=kept.append)
-    for name in ("events", "actions", "times", "num_refused"):
+    for name in ("events", "actions", "times", "beliefs", "num_refused"):
         assert getattr(again, name) == getattr(episode, name)
     again.answer(0)
     assert [event["call"] for event in kept] == ["answer"] and again.log_scores[0] is not None
