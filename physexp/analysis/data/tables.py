@@ -14,7 +14,8 @@ MAX_AGENT = 2**26
 """Bytes of an agent's file; the largest of ours has three million."""
 MAX_TEXT = 2**20
 """Bytes of a JSON file."""
-_MAX_TABLE = 2**28  # Bytes of a Parquet file; the largest of ours has two million.
+MAX_TABLE = 2**28
+"""Bytes of a Parquet file; the largest of ours has two million."""
 _MAX_VALUES = 80_000_000  # Of all columns: 10,000 episodes of every task in the log of a score.
 _MAX_UNPACKED = 2**29  # Bytes of all pages.
 _MAX_STRINGS = 2**28  # Bytes of all text, once every row has its own copy of a dictionary's.
@@ -35,7 +36,7 @@ def read(path: Path, schema: pyarrow.Schema) -> pyarrow.Table:
       OSError: if there is no such file.
       ValueError: if it is damaged, has other columns, or is too large.
     """
-    check(path, _MAX_TABLE)
+    check(path, MAX_TABLE)
     try:
         with parquet.ParquetFile(
             path,

@@ -14,7 +14,7 @@ import numpy as np
 
 import physexp
 from physexp.agents import environment_loop
-from physexp.analysis.data import episodes, provenance
+from physexp.analysis.data import episodes, provenance, tables
 from physexp.analysis.ideal import mistakes
 from physexp.analysis.score import beliefs, instances, judging, log, playing, protocol, scores, scoring
 
@@ -104,6 +104,8 @@ def verify_once(folder: Path) -> None:
     known = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "physexp" / "verified"
     known.mkdir(parents=True, exist_ok=True)
     paths = [path for name in (scoring.FILE, log.FILE, beliefs.FILE) if (path := folder / name).exists()]
+    for path in paths:
+        tables.check(path, tables.MAX_TABLE)
     parts = [_sources(), *(path.read_bytes() for path in paths)]
     mark = known / hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
     if not mark.exists():

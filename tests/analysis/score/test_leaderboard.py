@@ -3,6 +3,7 @@
 import html
 import json
 import math
+import os
 from pathlib import Path
 import re
 import shutil
@@ -196,6 +197,14 @@ def test_an_interrupted_score_is_no_row_and_can_go_on(copied):
     (folder / scoring.FILE).rename(folder / playing.FILE)
     _, (line,) = leaderboard.read(results)
     assert line == f"{folder} is no row: {folder} is not complete; the same `physexp score` goes on in it"
+
+
+def test_a_pipe_is_no_file_of_a_row(copied):
+    results, folder = copied
+    (folder / log.FILE).unlink()
+    os.mkfifo(folder / log.FILE)
+    _, (line,) = leaderboard.read(results)
+    assert line == f"{folder} is no row: {folder / log.FILE} is no regular file; put one in its place"
 
 
 def test_without_scores_there_is_no_leaderboard(tmp_path):
