@@ -2,6 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 import dataclasses
+from pathlib import Path
+import re
 
 from docutils import nodes
 from docutils.statemachine import StringList
@@ -11,16 +13,19 @@ import structure
 
 from physexp import checks, suite
 
+README = Path(__file__).parents[1] / "README.md"
+
 
 def cards() -> Iterator[Sequence[str]]:
     """Yields a card for each question, with a moving picture."""
     yield "an agent experiments", "question"
+    skills = dict(re.findall(r"^\| \[`(\w+)`\]\S* \| [^|]* \| ([^|]*) \|", README.read_text(), re.MULTILINE))
     for domain, names in suite.TASKS_BY_DOMAIN.items():
         task = suite.load_task(domain, names[0])
         words = domain.replace("_", " ").capitalize()
         picture = f"![{words}, played by an agent]({domain}.gif)"
         link = f'<a href="{play_page.NAME}?task={domain}/{names[0]}">Play it</a>'
-        yield picture, f"**{words}.** {task.question} Gamma is {task.discount:g}. {link}"
+        yield picture, f"**{words}.** {task.question} The skill is {skills[domain]}. Gamma is {task.discount:g}. {link}"
 
 
 def tasks() -> Iterator[Sequence[str]]:
