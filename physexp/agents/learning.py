@@ -1,10 +1,12 @@
-"""Parts that learners share: variables and their optimizer, targets of whole episodes, clipped gradients."""
+"""Parts that learners share: variables that Adam moves, targets of whole episodes, clipped gradients."""
 
 from collections.abc import Mapping, Sequence
+import functools
 from typing import Generic, Self, TypeVar
 
 import numpy as np
 import torch
+from torch.optim import adamw
 
 from physexp.agents import config as config_lib
 from physexp.agents import core, losses, networks, rounds
@@ -12,6 +14,9 @@ from physexp.agents import tensors as tensors_lib
 
 MAX_GRADIENT_NORM = 1.0
 """Gradients are clipped to this norm: single batches of whole episodes can have ten times the usual one."""
+
+# As `torch.optim.AdamW`, whose first instance imports torch's compiler, which takes as long as torch itself.
+_move = functools.partial(adamw.adamw, beta1=0.9, beta2=0.999, eps=1e-5, amsgrad=False, maximize=False, foreach=False)
 
 Network = TypeVar("Network", bound=networks.RecurrentNetwork)
 
@@ -21,30 +26,29 @@ class Variables(Generic[Network]):
 
     Attributes:
       network: the network.
-      optimizer: Adam on its parameters.
       frames: environment steps trained on, int64 [].
       updates: updates made, int64 [].
       rounds: rounds played by each worker, int64 [num_workers].
     """
 
     def __init__(self, network: Network, num_workers: int = 1, weight_decay: float = 0.0):
-        """Makes an optimizer for a network, and counters at zero.
+        """Makes the statistics of Adam for a network, and counters at zero.
 
         Each step shrinks the weights, but not the biases, by `weight_decay` times the learning rate (Loshchilov &
         Hutter, 2019).
         """
-        self.network = network
-        self._trained = {name: each for name, each in network.named_parameters() if each.requires_grad}
-        biases = [parameter for name, parameter in self._trained.items() if "bias" in name]
-        weights = [parameter for name, parameter in self._trained.items() if "bias" not in name]
-        groups = [{"params": weights, "weight_decay": weight_decay}, {"params": biases, "weight_decay": 0.0}]
-        self.optimizer = torch.optim.AdamW(groups, eps=1e-5, foreach=False)
-        for parameter in self._trained.values():  # Before the first step, so that they can be shared and restored.
-            self.optimizer.state[parameter] = {
+        self.network, self._weight_decay = network, weight_decay
+        self._trained: dict[str, torch.Tensor] = {
+            name: each for name, each in network.named_parameters() if each.requires_grad
+        }
+        self._statistics = {
+            name: {
                 "step": torch.zeros(()),
                 "exp_avg": torch.zeros_like(parameter.data),
                 "exp_avg_sq": torch.zeros_like(parameter.data),
             }
+            for name, parameter in self._trained.items()
+        }
         self.frames, self.updates, self.rounds = (
             torch.zeros(shape, dtype=torch.int64) for shape in ((), (), num_workers)
         )
@@ -59,8 +63,8 @@ class Variables(Generic[Network]):
     def tensors(self) -> dict[str, torch.Tensor]:
         """Returns everything, by name; not copies."""
         named = {f"network/{name}": value for name, value in self.network.state_dict().items()}
-        for name, parameter in self._trained.items():
-            for statistic, value in self.optimizer.state[parameter].items():
+        for name, statistics in self._statistics.items():
+            for statistic, value in statistics.items():
                 named[f"optimizer/{name}/{statistic}"] = value
         return {**named, "frames": self.frames, "updates": self.updates, "rounds": self.rounds}
 
@@ -78,13 +82,14 @@ class Variables(Generic[Network]):
         for name, value in own.items():
             value.copy_(tensors[name])
 
+    @torch.no_grad()
     def apply(self, gradients: Sequence[torch.Tensor], learning_rate: float) -> None:
         """Moves the parameters by one step of Adam; the counters stay."""
-        for parameter, gradient in zip(self._trained.values(), gradients, strict=True):
-            parameter.grad = gradient.to(parameter.device)
-        for group in self.optimizer.param_groups:
-            group["lr"] = learning_rate
-        self.optimizer.step()
+        for (name, parameter), gradient in zip(self._trained.items(), gradients, strict=True):
+            step, average, square = ([each] for each in self._statistics[name].values())
+            decay = 0.0 if "bias" in name else self._weight_decay
+            moved, along = [parameter], [gradient.to(parameter.device)]
+            _move(moved, along, average, square, [], step, lr=learning_rate, weight_decay=decay)
 
     def count(self, num_frames: int, worker: int = 0) -> dict[str, float]:
         """Counts a worker's round of `num_frames` environment steps and its update; returns both counts by name."""

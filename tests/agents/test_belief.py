@@ -324,7 +324,7 @@ def test_episodes_are_played_again_from_their_actions_to_the_last_bit(domain, ta
 def test_convolutions_stay_random_and_outputs_are_kept_in_half():
     agent = make_agent(SMALL.replace(seed=fresh_seed()), "strike", "pixels")
     before, learner = agent.save(), agent
-    while not int(learner.variables.optimizer.state[learner.variables.network.projection.weight]["step"]):
+    while not int(learner.variables.tensors()["optimizer/projection.weight/step"]):
         learner.step()
     after = agent.save()
     are_same = {name: torch.equal(value, after[name]) for name, value in before.items() if name.startswith("trained/")}

@@ -60,11 +60,11 @@ def test_steps_are_those_of_adam():
     # First move: both corrected moments are 1: -0.001 * 1 / (1 + eps). Second: moments 0.29 / (1 - 0.81) and
     # 0.004999 / (1 - 0.998001).
     moved = -0.001 * (1 / (1 + 1e-5) + (0.29 / 0.19) / (math.sqrt(0.004999 / 0.001999) + 1e-5))
-    for parameter, old in zip(shared.network.parameters(), before, strict=True):
-        statistics = shared.optimizer.state[parameter]
-        assert statistics["step"].item() == 2
-        torch.testing.assert_close(statistics["exp_avg"], torch.full_like(parameter, 0.29))
-        torch.testing.assert_close(statistics["exp_avg_sq"], torch.full_like(parameter, 0.004999))
+    kept = shared.tensors()
+    for (name, parameter), old in zip(shared.network.named_parameters(), before, strict=True):
+        assert kept[f"optimizer/{name}/step"].item() == 2
+        torch.testing.assert_close(kept[f"optimizer/{name}/exp_avg"], torch.full_like(parameter, 0.29))
+        torch.testing.assert_close(kept[f"optimizer/{name}/exp_avg_sq"], torch.full_like(parameter, 0.004999))
         torch.testing.assert_close(parameter.detach() - old, torch.full_like(parameter, moved), rtol=1e-3, atol=1e-6)
 
 

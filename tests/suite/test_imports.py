@@ -29,6 +29,18 @@ def test_importing_starts_nothing_opens_no_context_and_loads_no_torch():
     assert [name for name in found["physexp"] if not name.startswith("physexp.suite")] == ["physexp", "physexp.checks"]
 
 
+def test_training_does_not_import_the_compiler_of_torch():
+    """Three seconds of each process that trains."""
+    found, _ = interpreters.run("""
+import sys, torch
+from physexp.agents import learning
+variables = learning.Variables(torch.nn.Linear(2, 1))
+variables.apply([torch.ones(1, 2), torch.ones(1)], learning_rate=0.001)
+found["compiler"] = "torch._dynamo" in sys.modules
+""")
+    assert found == {"compiler": False}
+
+
 def test_triton_is_loaded_before_gl_since_after_mesa_it_ends_the_process(tmp_path):
     """Torch's CUDA builds bring it, and its LLVM and Mesa's bear each other in this order only."""
     (tmp_path / "triton" / "_C").mkdir(parents=True)
