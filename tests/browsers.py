@@ -3,12 +3,14 @@
 import base64
 from collections.abc import Iterator
 import contextlib
+import http.server
 import itertools
 import json
 import os
 from pathlib import Path
 import signal
 import subprocess
+import threading
 from typing import Any
 
 import waiting
@@ -104,6 +106,19 @@ class Tab:
                 self._rest += read
             else:
                 return
+
+
+@contextlib.contextmanager
+def serving(server: http.server.HTTPServer) -> Iterator[str]:
+    """Serves in a thread; yields the address."""
+    with server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            yield f"http://127.0.0.1:{server.server_port}"
+        finally:
+            server.shutdown()
+            thread.join()
 
 
 @contextlib.contextmanager

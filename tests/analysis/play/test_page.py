@@ -227,14 +227,8 @@ def test_a_link_to_what_the_page_lacks_lists_what_it_has(query, said, made, tab)
 def served(tasks, path):
     """Yields the address of a page that keeps records, and the lines that it tells."""
     told = []
-    with path.open("w") as file, page.server(tasks, file, told.append) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        try:
-            yield f"http://127.0.0.1:{server.server_port}", told
-        finally:
-            server.shutdown()
-            thread.join()
+    with path.open("w") as file, browsers.serving(page.server(tasks, file, told.append)) as address:
+        yield address, told
 
 
 def answer(tab):

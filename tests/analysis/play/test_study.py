@@ -6,7 +6,6 @@ import functools
 import http.server
 import io
 import json
-import threading
 
 import browsers
 import pytest
@@ -42,14 +41,8 @@ def hosted(folder):
     """Yields the address of a folder, and a list of the bodies that are sent there."""
     taken = []
     handler = functools.partial(Host, directory=str(folder), taken=taken)
-    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
-        thread = threading.Thread(target=server.serve_forever)
-        thread.start()
-        try:
-            yield f"http://127.0.0.1:{server.server_port}", taken
-        finally:
-            server.shutdown()
-            thread.join()
+    with browsers.serving(http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)) as address:
+        yield address, taken
 
 
 def go_on(tab, text, button=0):
