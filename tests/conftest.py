@@ -1,5 +1,6 @@
 """Fixtures of all tests."""
 
+import gc
 import os
 import signal
 
@@ -30,6 +31,17 @@ def pytest_runtest_makereport(item, call):
 def pytest_collection_modifyitems(items):
     """Puts long tests first, so that at the end no process waits for another."""
     items.sort(key=lambda item: item.get_closest_marker("long") is None)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def frozen():
+    """Hides all that a module leaves, such as environments that tests share, from collections of garbage.
+
+    A collection among millions of objects takes more than a second.
+    """
+    yield
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture
