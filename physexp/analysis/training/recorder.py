@@ -18,7 +18,8 @@ from physexp.analysis.training import callbacks
 from physexp.analysis.training import config as config_lib
 from physexp.analysis.training import run as run_lib
 
-ROW_SECONDS = 5.0  # Between rows of metrics.csv.
+ROW_SECONDS = 5.0  # Between rows of metrics.csv, at most.
+_LEAST_ROWS = 100  # Of a whole training, which may be over in seconds.
 
 OnCheckpoint = Callable[[int, Mapping[str, torch.Tensor]], None]
 """Called after a checkpoint is written, with the frames trained on and the network's variables."""
@@ -81,7 +82,8 @@ class Recorder:
         self._updates += 1
         self._frames += update.episodes.num_frames
         self._num_episodes += len(update.episodes.lengths)
-        if time.monotonic() - self._row_started > ROW_SECONDS:
+        played = self._frames - self._frames_at_row
+        if time.monotonic() - self._row_started > ROW_SECONDS or played * _LEAST_ROWS >= self._config.agent.frames:
             self._report(self._write_row())
         self._write_checkpoint_when_complete()
 

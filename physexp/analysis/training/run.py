@@ -3,7 +3,7 @@
 In it are::
 
     config.json       the whole configuration, with versions and seeds
-    metrics.csv       a row every few seconds of training
+    metrics.csv       a row every few seconds, and every hundredth of the frames
     episodes.parquet  the episodes of one update for each of those rows, a part for each checkpoint
     checkpoints/      the variables, with the facts of the run
     replays/*.rrd     episodes for the rerun viewer

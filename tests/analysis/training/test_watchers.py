@@ -38,15 +38,23 @@ def test_lines_that_cannot_be_printed_do_not_end_training(tmp_path):
     assert run.is_finished
 
 
-def test_a_checkpoint_is_written_before_its_watchers_are_called(tmp_path):
-    run, reported, watched = trainers.create(tmp_path / "run", "ppo", frames=FRAMES, checkpoint_seconds=0.01), [], []
+def test_a_checkpoint_is_written_before_its_watchers_are_called_and_ends_a_row(tmp_path):
+    run, watched = trainers.create(tmp_path / "run", "ppo", frames=FRAMES, checkpoint_seconds=0.01), {}
 
-    def last(*_):
-        return int(run.checkpointer.paths()[-1].stem)
+    def watch(frames, variables):
+        watched[frames] = int(run.checkpointer.paths()[-1].stem)
 
-    trainer.train(run, lambda row: reported.append(last()), on_checkpoint=lambda *_: watched.append(last()))
-    frames = [row["frames"] for row in run.metrics()]
-    assert [*dict.fromkeys(reported)] == [*dict.fromkeys(watched)] == frames, "each row ends with its checkpoint"
+    trainer.train(run, on_checkpoint=watch)
+    assert watched and all(newest == frames for frames, newest in watched.items())
+    assert watched.keys() <= {row["frames"] for row in run.metrics()}
+
+
+def test_a_quick_training_has_a_row_for_every_hundredth_of_its_frames(tmp_path):
+    run = trainers.create(tmp_path / "run", "ppo", frames=FRAMES)
+    trainer.train(run)
+    rows = run.metrics()
+    assert rows[0]["frames"] > FRAMES / 100, "an update has more frames than that"
+    assert [row["updates"] for row in rows] == list(range(1, 1 + len(rows)))
 
 
 def test_replays_and_tensorboard_that_cannot_be_written_are_a_line_each(tmp_path):
