@@ -38,7 +38,7 @@ def test_lines_that_cannot_be_printed_do_not_end_training(tmp_path):
     assert run.is_finished
 
 
-def test_a_checkpoint_is_written_before_its_watchers_are_called_and_ends_a_row(tmp_path):
+def test_a_checkpoint_is_written_before_its_watchers_and_ends_a_row(tmp_path):
     run, watched = trainers.create(tmp_path / "run", "ppo", frames=FRAMES, checkpoint_seconds=0.01), {}
 
     def watch(frames, variables):
