@@ -29,7 +29,10 @@ class A3CConfig(config.ActorCriticConfig):
 
     @property
     def title(self) -> str:
-        """Returns the learner's name in names of runs; that of the paper's variant says so."""
+        """Returns the learner's name in names of runs; a variant has its own."""
         hints = (self.initial_logits, self.relative_pixels)
-        is_as_in_paper = self.envs_per_worker == self.gae_lambda == self.observation_scale == 1 and not any(hints)
-        return f"{self.algorithm}_paper" if is_as_in_paper else self.algorithm
+        variants = {
+            "paper": self.envs_per_worker == self.gae_lambda == self.observation_scale == 1 and not any(hints),
+            "one_worker": self.num_workers == 1,
+        }
+        return "_".join([self.algorithm, *(name for name, is_one in variants.items() if is_one)])

@@ -22,6 +22,7 @@ _MODULES = {
     "random_towers": "interactions",
     "ideal_gap": "ideal_gap",
     "learners": "learning",
+    "workers": "learning",
     "data_efficiency": "efficiency",
     "reaching": "efficiency",
     "ablations": "efficiency",

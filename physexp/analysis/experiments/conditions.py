@@ -1,6 +1,6 @@
 """The conditions that agents are trained in: the paper's, and ours, each with the environment steps that it needs."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 import dataclasses
 from typing import Any
 
@@ -116,9 +116,15 @@ def heavier(
 ) -> Condition:
     """Returns A3C on Which is Heavier with a difficulty, a number of environment steps, and a gamma."""
     agent = config_lib.preset("which_is_heavier", observations, algorithm="a3c")
-    agent = agent.replace(discount=discount, frames=frames, num_workers=1)
+    agent = agent.replace(discount=discount, frames=frames)
     task_kwargs = {"difficulty": difficulty}
     return Condition(domain="which_is_heavier", task=observations, task_kwargs=task_kwargs, agent=agent)
+
+
+def with_one_worker(condition: Condition, player: str = "") -> Condition:
+    """Returns a condition with A3C of one worker, whose gradients are never stale, and with a name."""
+    assert isinstance(condition.agent, a3c.A3CConfig)
+    return condition.changed(condition.agent.replace(num_workers=1), player)
 
 
 def towers(actuator: str, observations: str = "features") -> Condition:
@@ -128,18 +134,25 @@ def towers(actuator: str, observations: str = "features") -> Condition:
 
 def _with_preset(domain: str, task: str) -> Condition:
     """Returns A3C on a task as it is in the score's protocol."""
-    agent = config_lib.preset(domain, task, algorithm="a3c").replace(num_workers=1)
+    agent = config_lib.preset(domain, task, algorithm="a3c")
     task_kwargs = domains.find(domain).usual_options
     condition = Condition(domain=domain, task=task, task_kwargs=task_kwargs, agent=agent)
-    return condition.changed(agent.replace(frames=_BUDGETS[condition.label].a3c or agent.frames))
+    agent = agent.replace(frames=_BUDGETS[condition.label].a3c or agent.frames)
+    return with_one_worker(condition.changed(agent), condition.player)
 
 
-HEAVIER = tuple(
-    heavier(beta, kind, _BUDGETS[f"{beta:g}-{kind[0].upper()}"].a3c) for kind in OBSERVATIONS for beta in DIFFICULTIES
+def _with_one_worker(tasks: Iterable[Condition]) -> Iterator[Condition]:
+    """Yields conditions whose A3C has not been trained with two workers yet, under its usual name."""
+    return (with_one_worker(task, task.player) for task in tasks)
+
+
+FEATURES = tuple(heavier(beta, "features", _BUDGETS[f"{beta:g}-F"].a3c) for beta in DIFFICULTIES)
+
+HEAVIER = (
+    *FEATURES,
+    *_with_one_worker(heavier(beta, "pixels", _BUDGETS[f"{beta:g}-P"].a3c) for beta in DIFFICULTIES),
 )
 """A3C at the paper's gamma of 0.95."""
-
-FEATURES = HEAVIER[: len(DIFFICULTIES)]
 
 PATIENT = tuple(
     heavier(beta, "features", _BUDGETS[f"{beta:g}-F"].patient, discount=PATIENT_DISCOUNT) for beta in DIFFICULTIES
@@ -172,18 +185,16 @@ def with_ppo(condition: Condition) -> Condition:
 
 def with_papers_learner(condition: Condition) -> Condition:
     """Returns a condition with A3C as in the paper: one episode an update, raw observations, and no hint."""
-    return condition.changed(
-        a3c.A3CConfig(
-            discount=condition.agent.discount,
-            frames=_PAPERS_FRAMES,
-            learning_rate=0.01,
-            entropy_cost=1.0,
-            num_workers=1,
-            envs_per_worker=1,
-            observation_scale=1.0,
-            relative_pixels=False,
-        )
+    agent = a3c.A3CConfig(
+        discount=condition.agent.discount,
+        frames=_PAPERS_FRAMES,
+        learning_rate=0.01,
+        entropy_cost=1.0,
+        envs_per_worker=1,
+        observation_scale=1.0,
+        relative_pixels=False,
     )
+    return with_one_worker(condition.changed(agent), agent.title)
 
 
 def with_belief(condition: Condition, **changes: Any) -> Condition:

@@ -1,4 +1,8 @@
-"""Success in training: Which is Heavier (paper, Section 5.3; Figure 2), Towers (6.3; Figure 6), and A3C against PPO."""
+"""Success in training: Which is Heavier (paper, Section 5.3; Figure 2), Towers (6.3; Figure 6), and A3C with others."""
+
+from collections.abc import Callable, Iterable
+import functools
+from typing import Any
 
 from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, curves
@@ -9,6 +13,9 @@ _LEARNED = 0.9  # The success at which the speed of learning is compared.
 _TASKS = tuple(conditions.BY_LABEL[label] for label in ("5-F", "F-F"))
 LEARNERS = tuple(condition for task in _TASKS for condition in (task, conditions.with_ppo(task)))
 _NAMES = {"ppo": "PPO", "a3c": "A3C"}
+
+WORKERS = tuple(each for task in conditions.FEATURES for each in (task, conditions.with_one_worker(task)))
+_NUMBERS = {"a3c": "two workers", "a3c_one_worker": "one worker"}
 
 
 def load_heavier(results: base.Results):
@@ -27,9 +34,12 @@ def final_success(rows):
 _mean_success = claims.of_rows(lambda rows: estimates.mean_share(final_success(rows)))
 
 
-def _ratio_of_success(frame, condition: str) -> estimates.Estimate:
-    groups = (claims.rows(frame, condition=name) for name in condition.split(" against "))
+def _ratio_of_ends(*groups: Any) -> estimates.Estimate:
     return estimates.ratio_of_means(*map(final_success, groups))
+
+
+def _ratio_of_success(frame, condition: str) -> estimates.Estimate:
+    return _ratio_of_ends(*(claims.rows(frame, condition=name) for name in condition.split(" against ")))
 
 
 def ratio_of_steps(quick, slow, along: str = "frames") -> estimates.Estimate:
@@ -47,12 +57,13 @@ def _fist_over_direct(frame, kind: str) -> estimates.Estimate:
     return ratio_of_steps(*(claims.rows(frame, condition=name) for name in conditions.by_actuator(kind)))
 
 
-def _ppo_over_a3c(along: str) -> claims.Statistic:
-    def ratio(frame, task: str) -> estimates.Estimate:
-        ppo, a3c = (claims.rows(frame, condition=task, player=name) for name in _NAMES)
-        return ratio_of_steps(ppo, a3c, along)
+def _between(players: Iterable[str], ratio: Callable[[Any, Any], estimates.Estimate]) -> claims.Statistic:
+    """Returns the statistic of a ratio of two learners' curves in a task."""
 
-    return ratio
+    def statistic(frame, task: str) -> estimates.Estimate:
+        return ratio(*(claims.rows(frame, condition=task, player=name) for name in players))
+
+    return statistic
 
 
 def _draw_heavier(frame):
@@ -79,6 +90,20 @@ def _draw_towers(frame):
         curves.draw_panel(axes, {"median": curves.better_half(rows)}, conditions.TOWERS[0].chance)
         axes.set_title(task.replace("_", ", "))
     panels[0, 0].set_ylabel("share of right answers")
+    return figure
+
+
+def _draw_workers(frame):
+    """Draws a panel for each difficulty."""
+    by_task = dict(list(frame.groupby("condition", sort=False)))
+    figure, panels = plots.new(columns=len(by_task), width=2.6, height=2.2, sharey=True, squeeze=False)
+    for axes, (name, rows) in zip(panels[0], by_task.items(), strict=True):
+        players = dict(list(rows.groupby("player")))
+        lines = {words: curves.better_half(players[each]) for each, words in _NUMBERS.items() if each in players}
+        curves.draw_panel(axes, lines, conditions.HEAVIER[0].chance)
+        axes.set_title(conditions.tick(name))
+    panels[0, 0].set_ylabel("share of right answers")
+    panels[0, 0].legend(loc="lower right", bbox_to_anchor=(1, 0.3))
     return figure
 
 
@@ -115,7 +140,20 @@ EXPERIMENTS = {
         **claims.described("learners"),
         conditions=LEARNERS,
         load=lambda results: results.curves(LEARNERS),
-        statistics={"fewer_steps": _ppo_over_a3c("frames"), "less_time": _ppo_over_a3c("seconds")},
+        statistics={
+            "fewer_steps": _between(_NAMES, ratio_of_steps),
+            "less_time": _between(_NAMES, functools.partial(ratio_of_steps, along="seconds")),
+        },
         draw=_draw_learners,
+    ),
+    "workers": base.Experiment(
+        **claims.described("workers"),
+        conditions=WORKERS,
+        load=lambda results: results.curves(WORKERS),
+        statistics={
+            "as_many_steps": _between(_NUMBERS, ratio_of_steps),
+            "as_right": _between(_NUMBERS, _ratio_of_ends),
+        },
+        draw=_draw_workers,
     ),
 }

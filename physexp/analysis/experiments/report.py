@@ -135,16 +135,11 @@ def _worst(rows: Sequence[Row]) -> str:
 
 
 def _workers(configs: Sequence[str]) -> str:
-    """Returns a sentence about the A3C agents with one worker; nothing where there are none."""
+    """Returns a sentence on the numbers of workers of the A3C agents; nothing without such agents."""
     agents = [json.loads(config)["agent"] for config in configs]
-    workers = [agent["num_workers"] for agent in agents if agent["algorithm"] == "a3c"]
-    if not (alone := workers.count(1)):
-        return ""
-    share = f"All {alone}" if alone == len(workers) else f"{alone} of the {len(workers)}"
-    return (
-        f"{share} A3C agents had one worker each, and so learned synchronously; the paper's learner has many workers, "
-        "which do not wait for each other."
-    )
+    counts = collections.Counter(agent["num_workers"] for agent in agents if agent["algorithm"] == "a3c")
+    told = [f"{each} with {number}" for number, each in sorted(counts.items(), reverse=True)]
+    return f"A3C agents, by their asynchronous workers: {', '.join(told)}." if told else ""
 
 
 def _with(rows: Sequence[Row], verdict: str) -> list[claims_lib.Tested]:

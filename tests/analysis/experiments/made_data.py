@@ -99,6 +99,13 @@ def two_learners(num_agents, generator, ppo=5e5, a3c=2e6, seconds_of_a_ppo_frame
     return frame.assign(seconds=frame.seconds.where(frame.player == "a3c", seconds_of_a_ppo_frame * frame.frames))
 
 
+def two_workers(num_agents, generator, steps=1.0, plateau=0.97):
+    """A3C with one worker and with two, which end at a plateau; `steps` is the ratio of their steps, two over one."""
+    at = {(config.label, config.player): 1e6 * (steps if config.player == "a3c" else 1) for config in learning.WORKERS}
+    ends = {(label, player): plateau if player == "a3c" else 0.97 for label, player in at}
+    return curves(num_agents, generator, learning.WORKERS, ends, at)
+
+
 def scores(num_agents, generator, middles, seconds_of_a_frame=0.0005):
     """Scores that rise from nothing to nearly the ideal's return; the frames of the middle by condition."""
 
@@ -496,6 +503,11 @@ _MADE = {
         _PAPER,
         ("PPO is slow", {"ppo": 2e6, "a3c": 5e5}, {"fewer_steps", "less_time"}),
         ("PPO computes for long", {"seconds_of_a_ppo_frame": 0.01}, {"less_time"}),
+    ),
+    "workers": (
+        two_workers,
+        _PAPER,
+        ("stale gradients are slow and end low", {"steps": 1.5, "plateau": 0.93}, {"as_many_steps", "as_right"}),
     ),
     "data_efficiency": (
         few_steps,

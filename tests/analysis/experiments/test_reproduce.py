@@ -85,7 +85,7 @@ def test_the_report_begins_with_a_summary_in_plain_words(reported):
     words = r"Of (\d+) claims of the paper, (\d+) hold .*, (\d+) fail somewhere, and (\d+) cannot be decided"
     claimed, *counts = map(int, re.match(words, first).groups())
     assert claimed == sum(counts) > 0
-    assert f"All {len(CONDITIONS)} A3C agents had one worker each" in first
+    assert f"A3C agents, by their asynchronous workers: {len(CONDITIONS)} with 2." in first
     positions = [reported.index(words) for words in ("Undecided:", "## Claims of the paper", "## Provenance")]
     assert positions == sorted(positions)
     assert claims.HOLDS in reported
