@@ -66,10 +66,10 @@ def test_a_step_towards_the_posterior_is_one_on_the_likelihood(is_right):
     torch.testing.assert_close(found, logits.grad)
 
 
-@pytest.mark.parametrize("memory", ["attention", "lstm"])
-def test_no_step_depends_on_later_ones(memory):
+@pytest.mark.parametrize(("memory", "num_foreseen"), [("attention", 0), ("lstm", 0), ("attention", 2)])
+def test_no_step_depends_on_later_ones(memory, num_foreseen):
     torch.manual_seed(fresh_seed())
-    members = networks.Members(3, 4, 5, memory)
+    members = networks.Members(3, 4, 5, memory, num_foreseen)
     history = torch.randn(ENSEMBLE, 6, 7, 3)
     changed = torch.cat([history[:, :, :4], torch.randn(ENSEMBLE, 6, 3, 3)], dim=2)
     for before, after in zip(members(history), members(changed), strict=True):
@@ -85,9 +85,8 @@ def test_the_belief_is_learned_at_every_step_or_at_the_last_one(every_step, monk
     learner.step()
     episodes, held_out = learner.variables.episodes.sample(np.random.default_rng(config.seed), 16, ENSEMBLE, 1)
     with torch.no_grad():
-        logits, _ = learner.variables.network.unroll(
-            episodes.padded(episodes.inputs.float()), torch.from_numpy(episodes.actions)
-        )
+        inputs, actions = episodes.padded(episodes.inputs.float()), torch.from_numpy(episodes.actions)
+        logits = learner.variables.network.unroll(inputs, actions).logits
     means = []
     for member in range(ENSEMBLE):
         costs = [
@@ -99,6 +98,31 @@ def test_the_belief_is_learned_at_every_step_or_at_the_last_one(every_step, monk
         means.append(sum(costs) / len(costs))
     found = learner._learn(episodes, held_out, 0.0)["belief_loss"]
     assert found == pytest.approx(float(sum(means) / len(means)), rel=1e-4)
+
+
+def test_foresight_is_measured_on_the_steps_that_count():
+    # Huber's loss is half of a squared error below 1, and the error less a half above: 0.5 * 0.5^2 + (3 - 0.5) at the
+    # first step of the first episode, 0 at its second; the second episode does not count.
+    expected = torch.tensor([[[[0.5, 3.0], [9.0, 9.0]], [[1.0, 1.0], [9.0, 9.0]]]])
+    moved = torch.tensor([[[0.0, 0.0], [0.0, 0.0]], [[1.0, 1.0], [0.0, 0.0]]])
+    are_counted = torch.tensor([[[True, False], [True, False]]])
+    assert losses.foresight_loss(expected, moved, are_counted).item() == pytest.approx((0.125 + 2.5 + 0) / 2)
+
+
+def test_the_change_to_the_next_observation_is_foreseen():
+    learner = make_agent(SMALL.replace(seed=fresh_seed(), foresight=True), "balance")
+    for _ in range(4):
+        learner.step()
+    episodes, _ = learner.variables.episodes.sample(np.random.default_rng(0), 64, ENSEMBLE, learner.next_episode)
+    inputs, actions = episodes.padded(episodes.inputs.float()), torch.from_numpy(episodes.actions)
+    unrolled = learner.variables.network.unroll(inputs, actions)
+    torch.testing.assert_close(unrolled.moved, torch.diff(inputs, dim=0) / learner.variables.network.log_scale.exp())
+    are_counted = torch.from_numpy(episodes.played[1:]).expand(ENSEMBLE, -1, -1)
+    found, of_no_change = (
+        losses.foresight_loss(expected, unrolled.moved, are_counted).mean()
+        for expected in (unrolled.expected, torch.zeros_like(unrolled.expected))
+    )
+    assert found < of_no_change / 2, "the place of a block follows from the action"
 
 
 TARGETS = {
@@ -158,17 +182,18 @@ def test_calibration_is_the_mean_distance_of_belief_and_success():
 
 
 @pytest.mark.parametrize(
-    ("domain", "task", "memory"),
+    ("domain", "task", "memory", "foresight"),
     [
-        ("which_is_heavier", "features", "attention"),
-        ("towers", "fist_features", "lstm"),
-        ("strings", "pixels", "attention"),
+        ("which_is_heavier", "features", "attention", False),
+        ("towers", "fist_features", "lstm", False),
+        ("strings", "pixels", "attention", False),
+        ("balance", "features", "attention", True),
     ],
 )
-def test_acting_and_training_compute_the_same(domain, task, memory):
+def test_acting_and_training_compute_the_same(domain, task, memory, foresight):
     seed = fresh_seed()
     environment = load(domain, task, seed)
-    network = make_network(environment, seed, SMALL.replace(memory=memory))
+    network = make_network(environment, seed, SMALL.replace(memory=memory, foresight=foresight))
     kept = room(network, environment, 1)
     kept.add(play(network, environment, 0), 0)
     episodes, held_out = kept.sample(np.random.default_rng(seed), 32, ENSEMBLE, 1)
@@ -178,7 +203,8 @@ def test_acting_and_training_compute_the_same(domain, task, memory):
         torch.from_numpy(episodes.played),
     )
     with torch.no_grad():
-        logits, shares = network.unroll(inputs, actions)
+        unrolled = network.unroll(inputs, actions)
+        logits, shares = unrolled.logits, unrolled.shares
         for found, every in zip(network.held_out(inputs, actions), (logits, shares), strict=True):
             for row, member in enumerate(held_out):
                 torch.testing.assert_close(found[:, row], every[member, :, row], rtol=1e-3, atol=1e-4)
@@ -196,9 +222,10 @@ def test_acting_and_training_compute_the_same(domain, task, memory):
     environment.close()
 
 
-def test_no_member_learns_from_its_held_out_episodes(monkeypatch):
+@pytest.mark.parametrize("foresight", [False, True])
+def test_no_member_learns_from_its_held_out_episodes(foresight, monkeypatch):
     monkeypatch.setattr(belief, "_DROPOUT", 0.0)
-    learner = make_agent(SMALL.replace(seed=fresh_seed()))
+    learner = make_agent(SMALL.replace(seed=fresh_seed(), foresight=foresight))
     learner.step()
     episodes, held_out = learner.variables.episodes.sample(np.random.default_rng(0), 32, ENSEMBLE, 1)
     sizes = []

@@ -17,6 +17,7 @@ _LEARNING_RATE = 4e-3  # Adam's at the start; it decays linearly to zero over tr
 _BATCH_SIZE = 32  # Episodes in a step of Adam.
 _DROPOUT = 0.1  # Share of a memory's outputs that is dropped, so that beliefs are less sure of rare experience.
 _EMA_DECAY = 0.99  # Of the network that acts, a moving average of the one that learns.
+_FORESIGHT = 3.0  # Weight of the loss of foresight.
 _LAMBDA = 0.9  # Weight of the return of greedy actions against the network's own values.
 _NO_METRICS = dict.fromkeys(("belief_loss", "value_loss", "gradient_norm"), math.nan)  # Of a round without a step.
 
@@ -82,7 +83,8 @@ class Belief(synchronous.SynchronousAgent):
         assert episodes.inputs is not None
         actions, played = torch.from_numpy(episodes.actions), torch.from_numpy(episodes.played)
         inputs = episodes.padded(episodes.inputs.to(network.device).float())
-        logits, shares = (part.cpu() for part in network.unroll(inputs, actions.to(network.device), _DROPOUT))
+        unrolled = network.unroll(inputs, actions.to(network.device), _DROPOUT)
+        logits, shares = unrolled.logits.cpu(), unrolled.shares.cpu()
         with torch.no_grad():
             outputs_of_held_out = averaged.held_out(inputs, actions.to(network.device))
         held_out_logits, held_out_shares = (part.cpu() for part in outputs_of_held_out)
@@ -99,7 +101,12 @@ class Belief(synchronous.SynchronousAgent):
         taken = actions.clamp(max=network.num_interactions - 1).expand(len(logits), *actions.shape)
         values = network.values(beliefs, shares).gather(-1, taken[..., None])[..., 0]
         value_loss = losses.value_loss(values, targets, played & (actions < network.num_interactions) & learns)
-        gradients, norm = learning_lib.clipped_gradients(network, (belief_loss + value_loss).sum(), episodes)
+        loss = belief_loss + value_loss
+        if unrolled.expected is not None and unrolled.moved is not None:
+            are_foreseen = played[1:] & (actions[:-1] < network.num_interactions) & learns
+            foreseen = losses.foresight_loss(unrolled.expected.cpu(), unrolled.moved.cpu(), are_foreseen)
+            loss = loss + _FORESIGHT * foreseen
+        gradients, norm = learning_lib.clipped_gradients(network, loss.sum(), episodes)
         self.variables.apply(gradients, learning_rate)
         with torch.no_grad():
             torch._foreach_lerp_(list(averaged.parameters()), list(network.parameters()), 1 - _EMA_DECAY)

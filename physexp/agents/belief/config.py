@@ -43,6 +43,9 @@ class BeliefConfig(config.AgentConfig):
         checks.word(*get_args(Memory)),
         "memory of an episode: attention looks back at all steps, and an LSTM carries a state",
     )
+    foresight: bool = checked(
+        False, checks.flag, "the belief adds up the evidence of all steps, and members learn to foresee observations"
+    )
     max_interactions: int = checked(8, checks.whole(1, 10_000), "interactions of an episode at most; then it answers")
     frames_per_update: int = checked(
         4, checks.whole(1), "environment steps for each step of Adam; fewer learn more from each"
@@ -57,6 +60,7 @@ class BeliefConfig(config.AgentConfig):
         """Returns the learner's name in names of runs; a variant has its own."""
         variants = {
             "revealed": self.answers_revealed,
+            "foresight": self.foresight,
             "lstm": self.memory == "lstm",
             "last_step": not self.every_step,
             "no_replay": self.replay_episodes == NUM_ENVIRONMENTS,

@@ -41,6 +41,15 @@ def value_loss(values: torch.Tensor, targets: torch.Tensor, are_counted: torch.T
     return _means((values - targets).square(), are_counted)
 
 
+def foresight_loss(expected: torch.Tensor, moved: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
+    """Returns the mean Huber loss of expected changes of observations, [K], over the steps that count, bool [K, T, B].
+
+    The changes expected by K members, [K, T, B, F], and those that followed, [T, B, F], are in units of the mean one.
+    """
+    errors = functional.smooth_l1_loss(expected, moved.expand_as(expected), reduction="none").sum(-1)
+    return _means(errors, are_counted)
+
+
 def _means(errors: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
     return (errors * are_counted).sum((1, 2)) / are_counted.sum((1, 2)).clamp(min=1)
 

@@ -1,6 +1,7 @@
 """The belief network: probabilities of the labels, and values of the interactions."""
 
 from collections.abc import Mapping
+import dataclasses
 from typing import Any
 
 from dm_env import specs
@@ -18,6 +19,7 @@ ENSEMBLE_SIZE = 4
 _NUM_HEADS = 4
 _WIDTH = 64  # Units of a layer, or of all heads together.
 _PIXEL_SCALE = 10.0  # Changes in an image are of the order of a tenth of its range.
+_LEAST_LOG = -6.0  # Of a probability that the values are told; less likely labels do not matter to them.
 _STILL = 0.01  # A step in which everything moves by less than this share of the unit shows no clear direction.
 _TEMPERATURE = 0.001  # Of the policy: actions are as good as equal when their values differ by less.
 
@@ -34,6 +36,10 @@ class BeliefNetwork(networks.RecurrentNetwork):
     Observations, features or the convolutions of an image, are taken relative to the start of the episode and to the
     step before, in units of their mean change, which the learner measures. The direction of the last change tells which
     things moved together, however far. A question that is told is in the first observation itself.
+
+    With `foresight` the belief is proportional to a product of evidence, a factor for each step, as Bayes' rule has it:
+    its logits are sums over the steps. The values are told the belief. And members learn to foresee the change of the
+    observation by an interaction, which no label is needed for.
 
     The convolutions keep their random weights, which preserve the content of an image (Saxe et al., 2011), so that each
     image passes them once, when it is played. A projection, shared by all members, learns the part that matters.
@@ -54,6 +60,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         max_interactions: int,
         discount: float,
         sees_start: bool = False,
+        foresight: bool = False,
     ):
         """Builds the network, with weights from torch's global seed; for the hyperparameters see `BeliefConfig`."""
         super().__init__(observation_spec, _PIXEL_SCALE, 1.0)
@@ -66,7 +73,8 @@ class BeliefNetwork(networks.RecurrentNetwork):
             self.projection = Projection(self.num_inputs, _WIDTH)
         self._sees_start = sees_start
         history_size = (3 + sees_start) * self._num_seen + num_interactions + 1
-        self.members = Members(history_size, num_actions - num_interactions, num_interactions, memory)
+        sizes = history_size, num_actions - num_interactions, num_interactions
+        self.members = Members(*sizes, memory, self._num_seen if foresight else 0)
         self.register_buffer("log_scale", torch.zeros(()))
 
     @staticmethod
@@ -78,6 +86,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
             "max_interactions": config.max_interactions,
             "discount": config.discount,
             **({"sees_start": True} if task.is_told else {}),
+            **({"foresight": True} if config.foresight else {}),
         }
 
     def initial_state(self, batch_size: int) -> networks.State:
@@ -90,7 +99,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         """Computes one time step; see `RecurrentNetwork`. The policy prefers the action of the highest value."""
         seen, done = state
         seen = torch.cat([seen, self.projection(inputs)[None, :, None]], dim=2)
-        logits, shares = self._all_members(self._history(seen[0], done[0]))
+        logits, shares = self.members(_for_all(self._history(seen[0], done[0])))
         beliefs = logits[:, :, -1].softmax(-1).mean(0)
         values = self.values(beliefs, shares[:, :, -1].mean(0))
         if seen.shape[2] > self.max_interactions:
@@ -111,28 +120,24 @@ class BeliefNetwork(networks.RecurrentNetwork):
         answering = losses.answer_values(beliefs.amax(-1, keepdim=True))
         return self.discount * (answering + (1 - answering) * shares)
 
-    def unroll(
-        self, inputs: torch.Tensor, actions: torch.Tensor, dropout: float = 0.0
-    ) -> tuple[torch.Tensor, torch.Tensor]:
-        """Computes the outputs of K members for encoded observations, [T, B, F], and actions taken, int64 [T, B].
-
-        Returns the logits of beliefs, [K, T, B, L], and the share x of each interaction, [K, T, B, I].
-        """
-        logits, shares = self._all_members(self._histories(inputs, actions), dropout)
-        return logits.transpose(1, 2), shares.transpose(1, 2)
+    def unroll(self, inputs: torch.Tensor, actions: torch.Tensor, dropout: float = 0.0) -> "Unrolled":
+        """Computes the outputs of all members for encoded observations, [T, B, F], and actions taken, int64 [T, B]."""
+        history = self._histories(inputs, actions)
+        outputs = self.members.remember(_for_all(history), dropout)
+        logits, shares = (part.transpose(1, 2) for part in self.members.judge(outputs))
+        if not self.members.foresees:
+            return Unrolled(logits, shares)
+        expected = self.members.foresee(outputs[:, :, :-1], _for_all(self._one_hot(actions[:-1]).transpose(0, 1)))
+        moved = history[:, 1:, self._num_seen : 2 * self._num_seen].detach()
+        return Unrolled(logits, shares, expected.transpose(1, 2), moved.transpose(0, 1))
 
     def held_out(self, inputs: torch.Tensor, actions: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
-        """Computes the outputs of the held-out member of each episode, [T, B, L] and [T, B, I]; see `unroll`.
+        """Returns the logits and shares of the held-out member of each episode, [T, B, L] and [T, B, I].
 
         The first member is held out from the first B / K episodes, and so on.
         """
         logits, shares = self.members(torch.stack(self._histories(inputs, actions).chunk(ENSEMBLE_SIZE)))
         return logits.flatten(0, 1).transpose(0, 1), shares.flatten(0, 1).transpose(0, 1)
-
-    def _all_members(self, history: torch.Tensor, dropout: float = 0.0) -> tuple[torch.Tensor, torch.Tensor]:
-        """Returns the outputs of all members for the same histories, [B, T, H]."""
-        logits, shares = self.members(history.expand(ENSEMBLE_SIZE, *history.shape), dropout)
-        return logits, shares
 
     def _histories(self, inputs: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
         """Returns the members' inputs for whole episodes, [B, T, H]."""
@@ -154,6 +159,29 @@ class BeliefNetwork(networks.RecurrentNetwork):
         return functional.one_hot(actions.clamp(max=num_interactions), num_interactions + 1)[..., :-1].float()
 
 
+def _for_all(history: torch.Tensor) -> torch.Tensor:
+    """Returns a tensor once for each member."""
+    return history.expand(ENSEMBLE_SIZE, *history.shape)
+
+
+@dataclasses.dataclass(frozen=True)
+class Unrolled:
+    """Outputs of K members for whole episodes.
+
+    Attributes:
+      logits: of beliefs, [K, T, B, L].
+      shares: the share x of each interaction, [K, T, B, I].
+      expected: changes of the observation that members foresee from each step to the next, [K, T - 1, B, F]; None
+        without foresight.
+      moved: those changes, [T - 1, B, F]; None without foresight.
+    """
+
+    logits: torch.Tensor
+    shares: torch.Tensor
+    expected: torch.Tensor | None = None
+    moved: torch.Tensor | None = None
+
+
 class Projection(nn.Module):
     """A linear map of very many inputs, whose outputs change as much in a step of Adam however many there are."""
 
@@ -171,21 +199,45 @@ class Projection(nn.Module):
 class Members(nn.Module):
     """K members, computed side by side, that share no weights: a memory of the episode, and two heads on it."""
 
-    def __init__(self, num_inputs: int, num_labels: int, num_interactions: int, memory: config_lib.Memory):
-        """Builds the layers of each member."""
+    def __init__(
+        self, num_inputs: int, num_labels: int, num_interactions: int, memory: config_lib.Memory, num_foreseen: int = 0
+    ):
+        """Builds the layers of each member; with 0 numbers to foresee, none of the network's foresight."""
         super().__init__()
         kinds: dict[str, type[nn.Module]] = {"attention": Attention, "lstm": LSTM}
         self.embedding = Linear(num_inputs, _WIDTH)
         self.memory = kinds[memory]()
         self.hidden = Linear(_WIDTH, 2 * _WIDTH)  # Of both heads, a half each.
-        self.belief, self.shares = (Linear(_WIDTH, size) for size in (num_labels, num_interactions))
+        self.foresees = num_foreseen > 0
+        num_told = num_labels if self.foresees else 0
+        self.belief, self.shares = Linear(_WIDTH, num_labels), Linear(_WIDTH + num_told, num_interactions)
+        if self.foresees:
+            self.expecting, self.expected = Linear(_WIDTH + num_interactions, _WIDTH), Linear(_WIDTH, num_foreseen)
 
-    def forward(self, history: torch.Tensor, dropout: float = 0.0) -> tuple[torch.Tensor, torch.Tensor]:
+    def forward(self, history: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
         """Maps histories, [K, B, T, H], to logits of beliefs, [K, B, T, L], and shares of interactions, [.., I]."""
+        return self.judge(self.remember(history))
+
+    def remember(self, history: torch.Tensor, dropout: float = 0.0) -> torch.Tensor:
+        """Maps histories, [K, B, T, H], to memories, [K, B, T, W]."""
         embedded = functional.relu(self.embedding(history))
         outputs = functional.relu(embedded + self.memory(embedded))
-        believing, valuing = functional.relu(self.hidden(functional.dropout(outputs, dropout))).chunk(2, dim=-1)
-        return self.belief(believing), self.shares(valuing).sigmoid()
+        return functional.dropout(outputs, dropout)
+
+    def judge(self, outputs: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
+        """Maps memories to logits and shares; see `forward`."""
+        believing, valuing = functional.relu(self.hidden(outputs)).chunk(2, dim=-1)
+        logits = self.belief(believing)
+        if self.foresees:
+            logits = logits.cumsum(2)
+            told = logits.detach().log_softmax(-1).clamp(min=_LEAST_LOG)
+            valuing = torch.cat([valuing, told], dim=-1)
+        return logits, self.shares(valuing).sigmoid()
+
+    def foresee(self, outputs: torch.Tensor, actions: torch.Tensor) -> torch.Tensor:
+        """Maps memories, [K, B, T, W], and interactions, one-hot [K, B, T, I], to changes that they expect, [.., F]."""
+        changes: torch.Tensor = self.expected(functional.relu(self.expecting(torch.cat([outputs, actions], dim=-1))))
+        return changes
 
 
 class Attention(nn.Module):
