@@ -55,8 +55,7 @@ class Results:
         tables/                        runs, learning curves, evaluations and episodes: see `data.results`
         agents/                        trained agents of some conditions
         runs/NAME/                     the folder of a run that is being trained, or was trained here
-        ideal/, generalization/, timing/, noise/
-                                       returns of the ideal experimenters, and of rules without training
+        computed.json                  returns of the ideal experimenters, and of rules without training
         figures/EXPERIMENT.png
         report.md
     """
@@ -178,27 +177,30 @@ class Results:
         Raises:
           ValueError: if there is neither, or the file is damaged.
         """
-        path = self._path_of_made(name)
-        if path.exists():
-            return files.read_json(path)
-        if otherwise is None:
-            raise self.lacks(f"{name}.json")
-        return otherwise
+        found = self._computed().get(name, otherwise)
+        if found is None:
+            raise self.lacks(name)
+        return found
 
     def keep(self, name: str, made: Any) -> None:
-        """Stores the result of an experiment's preparation in a JSON file."""
-        path = self._path_of_made(name)
-        path.parent.mkdir(parents=True, exist_ok=True)
-        files.write_atomically(path, (json.dumps(made, indent=1) + "\n").encode())
+        """Stores the result of an experiment's preparation under a name."""
+        computed = dict(sorted({**self._computed(), name: made}.items()))
+        self.path.mkdir(parents=True, exist_ok=True)
+        files.write_atomically(self._path_of_computed, (json.dumps(computed, indent=1) + "\n").encode())
 
     def make(self, name: str, report: Callable[[str], None], words: str, compute: Callable[[], Any]) -> None:
         """Stores the result of a slow function under a name, unless it is there; `report` is told the words before."""
-        if not self._path_of_made(name).exists():
+        if name not in self._computed():
             report(words)
             self.keep(name, compute())
 
-    def _path_of_made(self, name: str) -> Path:
-        return self.path / f"{name}.json"
+    def _computed(self) -> dict[str, Any]:
+        """Returns all stored results by name."""
+        return files.read_json(self._path_of_computed) if self._path_of_computed.exists() else {}
+
+    @property
+    def _path_of_computed(self) -> Path:
+        return self.path / "computed.json"
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

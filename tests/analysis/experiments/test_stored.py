@@ -2,7 +2,6 @@
 
 import collections
 import dataclasses
-import json
 import shutil
 
 import blocks
@@ -29,11 +28,6 @@ def results(tmp_path):
     return base.Results(tmp_path)
 
 
-def write(path, found):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(found))
-
-
 @pytest.mark.parametrize("name", ["learning_towers", "learners", "random_towers", "waiting"])
 def test_the_stored_report_follows_from_the_stored_tables(name):
     found = EXPERIMENTS[name].test(EXPERIMENTS[name].load(base.Results(RESULTS)))
@@ -54,8 +48,7 @@ def test_the_same_statistic_has_one_verdict_wherever_it_stands():
 def test_a_domain_new_in_the_laboratory_is_solved_and_others_are_kept(results):
     new, *others = laboratory.TASKS
     known = {task.label: {"value": 0.5, "at_once": -0.5, "random_value": 0.25} for task in others}
-    path = results.path / "ideal" / "laboratory.json"
-    write(path, known)
+    results.keep("ideal/laboratory", known)
     with pytest.raises(
         ValueError, match=f"no ideal of {new.label} of this experiment; `physexp reproduce EXPERIMENT` makes"
     ):
@@ -63,7 +56,7 @@ def test_a_domain_new_in_the_laboratory_is_solved_and_others_are_kept(results):
     told = []
     laboratory.prepare(results, told.append)
     assert told == [f"searching for the ideal experimenter of {new.task_name}"]
-    found = json.loads(path.read_text())
+    found = laboratory.untrained(results)
     assert {label: found[label] for label in known} == known
     assert 0 < found[new.label]["random_value"] < found[new.label]["value"] < 1
 
@@ -90,8 +83,7 @@ def test_a_rule_that_counts_steps_is_wrong_in_finer_time(results, monkeypatch):
     for _ in range(2):
         control_steps.prepare_timing(results, told.append)
     assert told == ["a rule that waits for a fixed number of control steps plays"]
-    path = results.path / "timing" / "F-F.json"
-    made = json.loads(path.read_text())
+    made = results.made("timing/F-F")
     assert made["right"]["0.1"] > 0.95 and made["right"]["0.05"] < 0.7
     # It answers when a fist at 1 m/s has come the 0.17 m to the tower, but in fine time before.
     assert made["wait"] * 0.05 < 0.17 < made["wait"] * 0.1
@@ -101,7 +93,7 @@ def test_an_agent_that_lacks_a_test_is_left_out(results):
     (agent,) = (
         each for each in generalization.CONDITIONS if each.label == "F-F" and each.player == generalization.VARIED
     )
-    shutil.copytree(RESULTS / "generalization", results.path / "generalization")
+    shutil.copy(RESULTS / "computed.json", results.path)
     for seed in range(2):
         filters = [("condition", "==", agent.id), ("training_seed", "==", seed)]
         for trial in list(generalization.TRIALS.values())[seed:]:
@@ -114,7 +106,7 @@ def test_an_agent_that_lacks_a_test_is_left_out(results):
 
 
 def test_damaged_episodes_are_an_error_and_not_a_missing_agent(results):
-    shutil.copytree(RESULTS / "ideal", results.path / "ideal")
+    shutil.copy(RESULTS / "computed.json", results.path)
     condition = conditions.BY_LABEL["10-F"]
     mine = [("condition", "==", condition.id), ("training_seed", "==", 0), ("trial", "==", "evaluation")]
     for table in ("evaluations", "episodes"):
