@@ -39,7 +39,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
 
     With `foresight` the belief is proportional to a product of evidence, a factor for each step, as Bayes' rule has it:
     its logits are sums over the steps. The values are told the belief. And members learn to foresee the change of the
-    observation by an interaction, which no label is needed for.
+    observation by an interaction, for which no label is needed.
 
     The convolutions keep their random weights, which preserve the content of an image (Saxe et al., 2011), so that each
     image passes them once, when it is played. A projection, shared by all members, learns the part that matters.
