@@ -115,12 +115,11 @@ def test_the_change_to_the_next_observation_is_foreseen():
         learner.step()
     episodes, _ = learner.variables.episodes.sample(np.random.default_rng(0), 64, ENSEMBLE, learner.next_episode)
     inputs, actions = episodes.padded(episodes.inputs.float()), torch.from_numpy(episodes.actions)
-    unrolled = learner.variables.network.unroll(inputs, actions)
-    torch.testing.assert_close(unrolled.moved, torch.diff(inputs, dim=0) / learner.variables.network.log_scale.exp())
+    expected, moved = learner.variables.network.unroll(inputs, actions).foreseen
+    torch.testing.assert_close(moved, torch.diff(inputs, dim=0) / learner.variables.network.log_scale.exp())
     are_counted = torch.from_numpy(episodes.played[1:]).expand(ENSEMBLE, -1, -1)
     found, of_no_change = (
-        losses.foresight_loss(expected, unrolled.moved, are_counted).mean()
-        for expected in (unrolled.expected, torch.zeros_like(unrolled.expected))
+        losses.foresight_loss(changes, moved, are_counted).mean() for changes in (expected, torch.zeros_like(expected))
     )
     assert found < of_no_change / 2, "the place of a block follows from the action"
 

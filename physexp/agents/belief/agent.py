@@ -102,10 +102,10 @@ class Belief(synchronous.SynchronousAgent):
         values = network.values(beliefs, shares).gather(-1, taken[..., None])[..., 0]
         value_loss = losses.value_loss(values, targets, played & (actions < network.num_interactions) & learns)
         loss = belief_loss + value_loss
-        if unrolled.expected is not None and unrolled.moved is not None:
+        if unrolled.foreseen is not None:
+            expected, moved = (part.cpu() for part in unrolled.foreseen)
             are_foreseen = played[1:] & (actions[:-1] < network.num_interactions) & learns
-            foreseen = losses.foresight_loss(unrolled.expected.cpu(), unrolled.moved.cpu(), are_foreseen)
-            loss = loss + _FORESIGHT * foreseen
+            loss = loss + _FORESIGHT * losses.foresight_loss(expected, moved, are_foreseen)
         gradients, norm = learning_lib.clipped_gradients(network, loss.sum(), episodes)
         self.variables.apply(gradients, learning_rate)
         with torch.no_grad():

@@ -129,7 +129,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
             return Unrolled(logits, shares)
         expected = self.members.foresee(outputs[:, :, :-1], _for_all(self._one_hot(actions[:-1]).transpose(0, 1)))
         moved = history[:, 1:, self._num_seen : 2 * self._num_seen].detach()
-        return Unrolled(logits, shares, expected.transpose(1, 2), moved.transpose(0, 1))
+        return Unrolled(logits, shares, (expected.transpose(1, 2), moved.transpose(0, 1)))
 
     def held_out(self, inputs: torch.Tensor, actions: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
         """Returns the logits and shares of the held-out member of each episode, [T, B, L] and [T, B, I].
@@ -171,15 +171,13 @@ class Unrolled:
     Attributes:
       logits: of beliefs, [K, T, B, L].
       shares: the share x of each interaction, [K, T, B, I].
-      expected: changes of the observation that members foresee from each step to the next, [K, T - 1, B, F]; None
-        without foresight.
-      moved: those changes, [T - 1, B, F]; None without foresight.
+      foreseen: changes of the observation from each step to the next, as members expect them, [K, T - 1, B, F], and as
+        they are, [T - 1, B, F]; None without foresight.
     """
 
     logits: torch.Tensor
     shares: torch.Tensor
-    expected: torch.Tensor | None = None
-    moved: torch.Tensor | None = None
+    foreseen: tuple[torch.Tensor, torch.Tensor] | None = None
 
 
 class Projection(nn.Module):

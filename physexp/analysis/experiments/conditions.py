@@ -1,6 +1,6 @@
 """The conditions that agents are trained in: the paper's, and ours, each with the environment steps that it needs."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 import dataclasses
 from typing import Any
 
@@ -141,17 +141,11 @@ def _with_preset(domain: str, task: str) -> Condition:
     return with_one_worker(condition.changed(agent), condition.player)
 
 
-def _with_one_worker(tasks: Iterable[Condition]) -> Iterator[Condition]:
-    """Yields conditions whose A3C has not been trained with two workers yet, under its usual name."""
-    return (with_one_worker(task, task.player) for task in tasks)
-
-
 FEATURES = tuple(heavier(beta, "features", _BUDGETS[f"{beta:g}-F"].a3c) for beta in DIFFICULTIES)
 
-HEAVIER = (
-    *FEATURES,
-    *_with_one_worker(heavier(beta, "pixels", _BUDGETS[f"{beta:g}-P"].a3c) for beta in DIFFICULTIES),
-)
+_PIXELS = tuple(heavier(beta, "pixels", _BUDGETS[f"{beta:g}-P"].a3c) for beta in DIFFICULTIES)
+
+HEAVIER = (*FEATURES, *(with_one_worker(task, task.player) for task in _PIXELS))
 """A3C at the paper's gamma of 0.95."""
 
 PATIENT = tuple(
