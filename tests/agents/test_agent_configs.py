@@ -21,7 +21,7 @@ BAD = [
     (ppo.PPOConfig, "entropy_cost", -0.1),
     (ppo.PPOConfig, "baseline_cost", math.nan),
     (a3c.A3CConfig, "num_workers", 0),
-    (belief.BeliefConfig, "frames_per_update", 0),
+    (belief.BeliefConfig, "frames_per_update", -1),
     (belief.BeliefConfig, "replay_episodes", 15),  # A round has 16.
 ]
 
@@ -63,7 +63,17 @@ def test_variants_of_a_learner_have_titles_of_their_own():
     assert belief.BeliefConfig().title == "belief"
     assert belief.BeliefConfig(answers_revealed=True, memory="lstm").title == "belief_revealed_lstm"
     assert belief.BeliefConfig(every_step=False).title == "belief_last_step"
+    assert belief.BeliefConfig(foresight=True).title == "belief_foresight"
     assert belief.BeliefConfig(replay_episodes=belief.NUM_ENVIRONMENTS).title == "belief_no_replay"
+
+
+def test_rules_set_how_long_episodes_may_be_and_how_often_the_belief_learner_learns():
+    config = belief.BeliefConfig()
+    # Eight interactions, or one for each answer but one; a step of Adam for four frames, or 75,000 steps in all.
+    assert [config.longest(num_labels) for num_labels in (2, 9, 12)] == [8, 8, 11]
+    assert [config.replace(frames=frames).period for frames in (1000, 300_000, 600_000)] == [4, 4, 8]
+    chosen = config.replace(frames=600_000, frames_per_update=1, max_interactions=3)
+    assert (chosen.period, chosen.longest(12)) == (1, 3)
 
 
 def test_costs_and_rates_decay_over_training():

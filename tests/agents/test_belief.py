@@ -33,15 +33,14 @@ def make_network(environment, seed, config=SMALL):
 
 
 def play(network, environment, number, config=SMALL):
-    policy = belief_acting.BehaviourPolicy(network.num_interactions, config, number)
+    policy = belief_acting.BehaviourPolicy(network.num_interactions, network.max_interactions, config.seed, number)
     return acting.play_round(network, environment, number, policy.choose, keep_inputs=True)
 
 
 def room(network, environment, num_rounds):
     """Room for rounds of episodes."""
-    return replay.Replay(
-        num_rounds, SMALL.max_interactions + 1, environment.num_environments, network.num_inputs, np.float32
-    )
+    longest = network.max_interactions + 1
+    return replay.Replay(num_rounds, longest, environment.num_environments, network.num_inputs, np.float32)
 
 
 # Targets and losses.
@@ -77,23 +76,23 @@ def test_no_step_depends_on_later_ones(memory, num_foreseen):
         assert not torch.isclose(before[:, :, 4:], after[:, :, 4:]).all(dim=-1).any()
 
 
-@pytest.mark.parametrize("every_step", [True, False])
-def test_the_belief_is_learned_at_every_step_or_at_the_last_one(every_step, monkeypatch):
+@pytest.mark.parametrize(("every_step", "foresight"), [(True, False), (False, False), (True, True)])
+def test_the_belief_is_learned_at_every_step_or_at_the_last_one(every_step, foresight, monkeypatch):
     monkeypatch.setattr(belief, "_DROPOUT", 0.0)
-    config = SMALL.replace(seed=fresh_seed(), every_step=every_step, answers_revealed=True)
+    config = SMALL.replace(seed=fresh_seed(), every_step=every_step, foresight=foresight, answers_revealed=True)
     learner = make_agent(config)
     learner.step()
     episodes, held_out = learner.variables.episodes.sample(np.random.default_rng(config.seed), 16, ENSEMBLE, 1)
     with torch.no_grad():
         inputs, actions = episodes.padded(episodes.inputs.float()), torch.from_numpy(episodes.actions)
         logits = learner.variables.network.unroll(inputs, actions).logits
-    means = []
+    means, learned = [], range(len(actions) if every_step and not foresight else 0)
     for member in range(ENSEMBLE):
         costs = [
             -logits.log_softmax(-1)[member, step, episode, episodes.answers[episode]]
             for episode in range(16)
             for step in range(episodes.lengths[episode])
-            if held_out[episode] != member and (every_step or step == episodes.lengths[episode] - 1)
+            if held_out[episode] != member and (step in learned or step == episodes.lengths[episode] - 1)
         ]
         means.append(sum(costs) / len(costs))
     found = learner._learn(episodes, held_out, 0.0)["belief_loss"]
@@ -271,7 +270,7 @@ def first_choices(monkeypatch, action_values, num_interactions, **constants):
     monkeypatch.setattr(config_lib, "NUM_ENVIRONMENTS", 6000)
     for name, value in constants.items():
         monkeypatch.setattr(belief_acting, name, value)
-    policy = belief_acting.BehaviourPolicy(num_interactions, SMALL.replace(seed=fresh_seed()), 0)
+    policy = belief_acting.BehaviourPolicy(num_interactions, 8, fresh_seed(), 0)
     values = torch.tensor(action_values).repeat(6000, 1)
     output = networks_lib.Output(values, values.max(1).values, values)
     return policy.choose(output, np.arange(6000), 0), policy
@@ -319,7 +318,7 @@ def test_an_episode_has_at_most_the_interactions_of_training(greedy):
     network.members.shares.bias.data += 10.0  # It would interact for ever.
     choose = acting.likeliest if greedy else acting.drawn(np.random.default_rng(seed))
     played = acting.play_round(network, environment, 0, choose)
-    assert (played.lengths == SMALL.max_interactions + 1).all()
+    assert (played.lengths == network.max_interactions + 1).all()
     environment.close()
 
 

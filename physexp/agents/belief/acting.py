@@ -24,9 +24,9 @@ class BehaviourPolicy:
       beliefs: the belief in the answer that each episode ended with, float64 [B]; NaN if it had no answer.
     """
 
-    def __init__(self, num_interactions: int, config: config_lib.BeliefConfig, number: int):
-        """Draws, for the round `number`, the maximum of interactions of each of its episodes."""
-        size, generator = config_lib.NUM_ENVIRONMENTS, starting.round_generator(config.seed, 0, number)
+    def __init__(self, num_interactions: int, longest: int, seed: int, number: int):
+        """Draws, for the round `number`, the maximum of interactions of each of its episodes, `longest` or fewer."""
+        size, generator = config_lib.NUM_ENVIRONMENTS, starting.round_generator(seed, 0, number)
         self.beliefs = np.full(size, np.nan)
         self._num_interactions, self._generator = num_interactions, generator
         self.are_greedy = np.arange(size) < round(_EVAL_FRACTION * size)
@@ -34,8 +34,8 @@ class BehaviourPolicy:
         self._epsilons = np.zeros(size)
         self._epsilons[~self.are_greedy] = _EPSILON_MAX * np.geomspace(1, _EPSILON_RATIO, num_exploring)
         stops_early = (generator.random(size) < _EARLY_STOP_FRACTION) & ~self.are_greedy
-        drawn = generator.integers(config.max_interactions + 1, size=size)
-        self._max_interactions = np.where(stops_early, drawn, config.max_interactions)
+        drawn = generator.integers(longest + 1, size=size)
+        self._max_interactions = np.where(stops_early, drawn, longest)
 
     def choose(self, output: networks.Output, active: np.ndarray, step: int) -> np.ndarray:
         """Returns actions; see `acting.Choose`."""

@@ -36,7 +36,7 @@ class Belief(synchronous.SynchronousAgent):
         network.to(devices.choose(config.device, network.sees_images))
         num_rounds = config.replay_episodes // num_environments
         dtype = np.float16 if network.sees_images else np.float32
-        longest = config.max_interactions + self._environment.num_questions
+        longest = network.max_interactions + self._environment.num_questions
         episodes = replay.Replay(num_rounds, longest, num_environments, network.num_inputs, dtype)
         self.variables, self._config = learning.Variables(network, episodes), config
 
@@ -48,7 +48,8 @@ class Belief(synchronous.SynchronousAgent):
         """Plays a round, and makes as many steps of Adam as its frames ask for."""
         config, variables, number = self._config, self.variables, self.next_episode
         num_questions = self._environment.num_questions
-        policy = acting.BehaviourPolicy(variables.network.num_interactions, config, number)
+        network = variables.network
+        policy = acting.BehaviourPolicy(network.num_interactions, network.max_interactions, config.seed, number)
         self.last_round = played = self._play(number, policy.choose)
         variables.episodes.add(played, number)
         self._measure_changes(played)
@@ -58,13 +59,13 @@ class Belief(synchronous.SynchronousAgent):
         returns = (played.rewards * config.discount ** np.arange(float(len(played.rewards)))[:, None]).sum(axis=0)
         greedy_returns = torch.from_numpy(returns[policy.are_greedy])
         variables.compare(greedy_returns)
-        steps_before = int(variables.frames) // config.frames_per_update
+        steps_before = int(variables.frames) // config.period
         counts = variables.count(played.num_frames)
         learning_rate = _LEARNING_RATE * (1 - config.progress(int(variables.frames)))
         generator = np.random.default_rng([config.seed, number])
         metrics = []
         torch.default_generator.manual_seed(int(generator.integers(2**63)))  # Dropout draws from it.
-        for _ in range(int(variables.frames) // config.frames_per_update - steps_before):
+        for _ in range(int(variables.frames) // config.period - steps_before):
             episodes, held_out = variables.episodes.sample(generator, _BATCH_SIZE, networks.ENSEMBLE_SIZE, number + 1)
             metrics.append(self._learn(episodes, held_out, learning_rate))
         variables.update_agent()
@@ -138,7 +139,7 @@ class Belief(synchronous.SynchronousAgent):
             answered = (actions - num_interactions).clamp(min=0)
             labels = losses.label_posterior(held_out_logits[at_end], answered[at_end], are_right[at_end])
             are_counted = played & are_answers[at_end]
-        return are_ends, labels, are_counted if self._config.every_step else are_counted & are_ends
+        return are_ends, labels, are_counted if self._config.learns_every_step else are_counted & are_ends
 
     def _measure_changes(self, played: rounds.Round) -> None:
         """Updates the unit of inputs: their root mean square change since the start of the episode."""

@@ -11,6 +11,10 @@ from physexp.checks import checked
 NUM_ENVIRONMENTS = 16
 """Environments that play side by side, one episode each between two rounds of learning."""
 
+_LEAST_INTERACTIONS = 8
+_LEAST_PERIOD = 4
+_MOST_UPDATES = 75_000
+
 Memory = Literal["attention", "lstm"]
 
 
@@ -44,11 +48,22 @@ class BeliefConfig(config.AgentConfig):
         "memory of an episode: attention looks back at all steps, and an LSTM carries a state",
     )
     foresight: bool = checked(
-        False, checks.flag, "the belief adds up the evidence of all steps, and members learn to foresee observations"
+        False,
+        checks.flag,
+        "the belief adds up the evidence of all steps, and is learned at the last one; members learn to foresee "
+        "observations",
     )
-    max_interactions: int = checked(8, checks.whole(1, 10_000), "interactions of an episode at most; then it answers")
+    max_interactions: int = checked(
+        0,
+        checks.whole(0, 10_000),
+        "interactions of an episode at most; then it answers; 0 for enough to rule out all answers but one, and for "
+        f"{_LEAST_INTERACTIONS} or more",
+    )
     frames_per_update: int = checked(
-        4, checks.whole(1), "environment steps for each step of Adam; fewer learn more from each"
+        0,
+        checks.whole(0),
+        f"environment steps for each step of Adam; fewer learn more from each; 0 for {_LEAST_PERIOD}, or more if these "
+        f"would be over {_MOST_UPDATES:,} steps",
     )
     replay_episodes: int = checked(
         60_000, checks.whole(NUM_ENVIRONMENTS, 100_000_000), "episodes that are kept to learn from; the oldest go"
@@ -70,4 +85,18 @@ class BeliefConfig(config.AgentConfig):
     @property
     def advice(self) -> str:
         """Returns advice for an agent that has learned nothing."""
-        return f"fewer --frames-per-update than {self.frames_per_update}"
+        return f"fewer --frames-per-update than {self.period}"
+
+    @property
+    def period(self) -> int:
+        """Returns the environment steps for each step of Adam."""
+        return self.frames_per_update or max(_LEAST_PERIOD, self.frames // _MOST_UPDATES)
+
+    @property
+    def learns_every_step(self) -> bool:
+        """Returns whether the belief is learned at every step; one that adds up evidence is learned at the last one."""
+        return self.every_step and not self.foresight
+
+    def longest(self, num_labels: int) -> int:
+        """Returns the interactions that an episode may have."""
+        return self.max_interactions or max(_LEAST_INTERACTIONS, num_labels - 1)
