@@ -75,12 +75,14 @@ class _Budget:
       words: the task in words.
       belief: of the belief learner.
       varied: of the belief learner, with variation.
+      foresight: of the belief learner with foresight, where they differ.
       a3c, patient: of A3C where they differ from the preset's: at the task's gamma, and at `PATIENT_DISCOUNT`.
     """
 
     words: str
     belief: int
     varied: int = 0
+    foresight: int = 0
     a3c: int = 0
     patient: int = 0
 
@@ -97,7 +99,7 @@ _BUDGETS = {  # The easier the task, the sooner its curve is flat.
     "F-F": _Budget("fist, features", belief=50_000, varied=150_000),
     "F-P": _Budget("fist, pixels", belief=80_000, varied=1_000_000),
     "threshold features": _Budget("threshold features", belief=60_000),
-    "balance features": _Budget("balance features", belief=150_000),
+    "balance features": _Budget("balance features", belief=150_000, foresight=600_000),
     "strings features": _Budget("strings features", belief=150_000),
     "sealed_box features": _Budget("sealed_box features", belief=200_000),
     "strike features": _Budget("strike features", belief=300_000),
@@ -196,6 +198,12 @@ def with_belief(condition: Condition, **changes: Any) -> Condition:
     agent = config_lib.preset(condition.domain, condition.task, algorithm="belief")
     frames = _BUDGETS[condition.label].belief
     return condition.changed(agent.replace(discount=condition.agent.discount, frames=frames, **changes))
+
+
+def with_foresight(condition: Condition) -> Condition:
+    """Returns a condition with the belief learner that adds up evidence and foresees observations."""
+    agent = with_belief(condition, foresight=True).agent
+    return condition.changed(agent.replace(frames=_BUDGETS[condition.label].foresight or agent.frames))
 
 
 def with_each_learner(tasks: Sequence[Condition]) -> tuple[Condition, ...]:

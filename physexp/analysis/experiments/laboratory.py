@@ -10,10 +10,16 @@ from physexp.analysis.data import estimates, plots
 from physexp.analysis.experiments import base, claims, conditions, efficiency
 
 TASKS = (*(conditions.BY_LABEL[label] for label in ("5-F", "D-F", "F-F")), *conditions.OTHERS)
-LEARNERS = {"a3c": "A3C", "ppo": "PPO", "belief": "belief", "belief_revealed": "belief,\nrevealed"}
+LEARNERS = {
+    "a3c": "A3C",
+    "ppo": "PPO",
+    "belief": "belief",
+    "belief_revealed": "belief,\nrevealed",
+    "belief_foresight": "belief,\nforesight",
+}
 """Learners by title; `belief_revealed` is told the right answer after each episode, the others their reward alone."""
 
-CONDITIONS = conditions.with_each_learner(TASKS)
+CONDITIONS = (*conditions.with_each_learner(TASKS), *map(conditions.with_foresight, TASKS))
 _FLOOR = -0.1  # Of the figure; smaller shares are drawn there.
 _STORED = "ideal/laboratory"
 _UNTRAINED = ["value", "at_once", "random_value"]

@@ -585,6 +585,7 @@ _MADE = {
         ("PPO is clumsy", {"ppo": 0.9}, {"ppo"}),
         ("rewards tell too little", {"belief": 0.5}, {"belief"}),
         ("nothing helps", {"belief_revealed": 0.9}, {"belief_revealed"}),
+        ("foresight misleads", {"belief_foresight": 0.5}, {"belief_foresight"}),
     ),
     "few": (steps_to_targets, _PAPER, ("slow learners", {"hundreds": 1000}, {"soon"})),
 }
