@@ -50,8 +50,8 @@ class BeliefConfig(config.AgentConfig):
     foresight: bool = checked(
         False,
         checks.flag,
-        "the belief adds up the evidence of all steps, and is learned at the last one; members learn to foresee "
-        "observations",
+        "the belief adds up the evidence of all steps, and is learned at the last one unless answers are revealed; "
+        "members learn to foresee observations",
     )
     max_interactions: int = checked(
         0,
@@ -94,8 +94,8 @@ class BeliefConfig(config.AgentConfig):
 
     @property
     def learns_every_step(self) -> bool:
-        """Returns whether the belief is learned at every step; one that adds up evidence is learned at the last one."""
-        return self.every_step and not self.foresight
+        """Returns whether the belief is learned at every step of an episode."""
+        return self.every_step and (self.answers_revealed or not self.foresight)
 
     def longest(self, num_labels: int) -> int:
         """Returns the interactions that an episode may have."""
