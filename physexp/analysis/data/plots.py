@@ -10,7 +10,7 @@ from physexp.agents import files
 # Okabe and Ito's colours (2008), darkest first, so that they differ in grey too; lines differ in dashes as well.
 COLORS = ("#000000", "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00")
 DASHES = ("solid", (0, (5, 1.5)), (0, (1, 1.2)), (0, (5, 1.5, 1, 1.5)), (0, (3, 1, 1, 1, 1, 1)))
-MARKERS = ("o", "s", "^", "D", "v")
+MARKERS = ("o", "s", "^", "D", "v", "P")
 GREY = "0.45"
 _DOTTED = (0, (1, 2))
 _DPI = 220  # Of PNG; sharp on screens of two dots to a pixel.

@@ -75,7 +75,7 @@ class _Budget:
       words: the task in words.
       belief: of the belief learner.
       varied: of the belief learner, with variation.
-      foresight: of the belief learner with foresight, where they differ.
+      foresight: of the belief learner with foresight from the reward alone, where they differ.
       a3c, patient: of A3C where they differ from the preset's: at the task's gamma, and at `PATIENT_DISCOUNT`.
     """
 
@@ -200,10 +200,11 @@ def with_belief(condition: Condition, **changes: Any) -> Condition:
     return condition.changed(agent.replace(discount=condition.agent.discount, frames=frames, **changes))
 
 
-def with_foresight(condition: Condition) -> Condition:
-    """Returns a condition with the belief learner that adds up evidence and foresees observations."""
-    agent = with_belief(condition, foresight=True).agent
-    return condition.changed(agent.replace(frames=_BUDGETS[condition.label].foresight or agent.frames))
+def with_foresight(condition: Condition) -> tuple[Condition, Condition]:
+    """Returns conditions with the belief learner that adds up evidence and foresees observations, in both tracks."""
+    alone, revealed = (with_belief(condition, foresight=True, answers_revealed=track) for track in (False, True))
+    frames = _BUDGETS[condition.label].foresight or alone.agent.frames
+    return alone.changed(alone.agent.replace(frames=frames)), revealed
 
 
 def with_each_learner(tasks: Sequence[Condition]) -> tuple[Condition, ...]:

@@ -1,6 +1,7 @@
 """The laboratory: the return of each learner in every domain, as a share of the ideal's. Ours."""
 
 from collections.abc import Callable
+import itertools
 from typing import Any
 
 import numpy as np
@@ -16,10 +17,11 @@ LEARNERS = {
     "belief": "belief",
     "belief_revealed": "belief,\nrevealed",
     "belief_foresight": "belief,\nforesight",
+    "belief_revealed_foresight": "belief,\nboth",
 }
-"""Learners by title; `belief_revealed` is told the right answer after each episode, the others their reward alone."""
+"""Learners by title; the revealed ones are told the right answer after each episode, the others their reward alone."""
 
-CONDITIONS = (*conditions.with_each_learner(TASKS), *map(conditions.with_foresight, TASKS))
+CONDITIONS = (*conditions.with_each_learner(TASKS), *itertools.chain(*map(conditions.with_foresight, TASKS)))
 _FLOOR = -0.1  # Of the figure; smaller shares are drawn there.
 _STORED = "ideal/laboratory"
 _UNTRAINED = ["value", "at_once", "random_value"]

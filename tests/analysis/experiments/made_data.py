@@ -586,6 +586,7 @@ _MADE = {
         ("rewards tell too little", {"belief": 0.5}, {"belief"}),
         ("nothing helps", {"belief_revealed": 0.9}, {"belief_revealed"}),
         ("foresight misleads", {"belief_foresight": 0.5}, {"belief_foresight"}),
+        ("foresight distracts", {"belief_revealed_foresight": 0.9}, {"belief_revealed_foresight"}),
     ),
     "few": (steps_to_targets, _PAPER, ("slow learners", {"hundreds": 1000}, {"soon"})),
 }
