@@ -1,6 +1,6 @@
 """Processes: the cores and the memory that they may use, what children inherit, and how they end."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 import contextlib
 import math
 import multiprocessing
@@ -109,9 +109,9 @@ def inherited_by_workers() -> Iterator[None]:
             os.environ["OMP_NUM_THREADS"] = threads
 
 
-def begin() -> None:
-    """Makes a child's process ignore the stop signals, and end when its parent ends; call it first."""
-    for number in STOP_SIGNALS:
+def begin(ignored: Iterable[signal.Signals] = STOP_SIGNALS) -> None:
+    """Makes a child's process ignore signals, also one that waits, and end when its parent ends; call it first."""
+    for number in ignored:
         signal.signal(number, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 

@@ -65,7 +65,7 @@ class Processes:
 
 def _work(job: sweep.Job, results: base.Results, outcome: connection.Connection) -> None:
     """Does a job in a process that hears SIGTERM alone, by which its parent asks it to end; sends the error or None."""
-    processes.begin()
+    processes.begin(ignored=set(processes.STOP_SIGNALS) - {signal.SIGTERM})  # It may have come already.
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, processes.STOP_SIGNALS)
     try:

@@ -228,6 +228,16 @@ def test_a_killed_job_fails_alone(tmp_path):
 
 
 @pytest.mark.long
+def test_a_job_whose_process_has_just_started_ends_when_asked_to(tmp_path):
+    (job,) = grid(1, frames=10**8)
+    with pools.Processes(1) as pool:
+        pending = pool.submit(job, base.Results(tmp_path))
+        wait_until(multiprocessing.active_children, "a process")
+        wait_until(lambda: pool.stop() or pending.done(), "the end of the job")
+    assert "run the sweep again to go on" in str(pending.exception())
+
+
+@pytest.mark.long
 def test_jobs_write_checkpoints_when_the_sweep_is_asked_to_end(tmp_path):
     jobs, results = grid(1, frames=10**8), base.Results(tmp_path)
     run = results.run(jobs[0].config)
