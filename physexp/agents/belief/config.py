@@ -11,7 +11,7 @@ from physexp.checks import checked
 NUM_ENVIRONMENTS = 16
 """Environments that play side by side, one episode each between two rounds of learning."""
 
-_LEAST_INTERACTIONS = 8
+_USUAL_INTERACTIONS = 8
 _LEAST_PERIOD = 4
 _MOST_UPDATES = 75_000
 
@@ -56,8 +56,8 @@ class BeliefConfig(config.AgentConfig):
     max_interactions: int = checked(
         0,
         checks.whole(0, 10_000),
-        "interactions of an episode at most; then it answers; 0 for enough to rule out all answers but one, and for "
-        f"{_LEAST_INTERACTIONS} or more",
+        f"interactions of an episode at most; then it answers; 0 for {_USUAL_INTERACTIONS}, and with foresight for "
+        "more if it takes more to rule out all answers but one",
     )
     frames_per_update: int = checked(
         0,
@@ -99,4 +99,4 @@ class BeliefConfig(config.AgentConfig):
 
     def longest(self, num_labels: int) -> int:
         """Returns the interactions that an episode may have."""
-        return self.max_interactions or max(_LEAST_INTERACTIONS, num_labels - 1)
+        return self.max_interactions or max(_USUAL_INTERACTIONS, num_labels - 1 if self.foresight else 0)
