@@ -67,7 +67,7 @@ def test_variants_of_a_learner_have_titles_of_their_own():
     assert belief.BeliefConfig(replay_episodes=belief.NUM_ENVIRONMENTS).title == "belief_no_replay"
 
 
-def test_rules_set_how_long_episodes_may_be_and_how_often_the_belief_learner_learns():
+def test_rules_set_caps_and_how_often_the_belief_learner_learns():
     config = belief.BeliefConfig()
     # Eight interactions, or with foresight one for each answer but one; a step of Adam for four frames, or 75,000.
     assert [config.replace(foresight=True).longest(num_labels) for num_labels in (2, 9, 12)] == [8, 8, 11]
@@ -77,7 +77,7 @@ def test_rules_set_how_long_episodes_may_be_and_how_often_the_belief_learner_lea
     assert (chosen.period, chosen.longest(12)) == (1, 3)
 
 
-def test_sums_of_evidence_are_learned_at_the_last_step_unless_answers_are_revealed():
+def test_sums_are_learned_at_the_last_step_unless_answers_are_revealed():
     config = belief.BeliefConfig()
     assert config.learns_every_step and not config.replace(every_step=False).learns_every_step
     assert not config.replace(foresight=True).learns_every_step

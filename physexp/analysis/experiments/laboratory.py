@@ -16,8 +16,8 @@ LEARNERS = {
     "ppo": "PPO",
     "belief": "belief",
     "belief_revealed": "belief,\nrevealed",
-    "belief_foresight": "belief,\nforesight",
-    "belief_revealed_foresight": "belief,\nboth",
+    "belief_foresight": "foresight",
+    "belief_revealed_foresight": "foresight,\nrevealed",
 }
 """Learners by title; the revealed ones are told the right answer after each episode, the others their reward alone."""
 
