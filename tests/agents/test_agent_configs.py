@@ -21,7 +21,7 @@ BAD = [
     (ppo.PPOConfig, "entropy_cost", -0.1),
     (ppo.PPOConfig, "baseline_cost", math.nan),
     (a3c.A3CConfig, "num_workers", 0),
-    (belief.BeliefConfig, "frames_per_update", -1),
+    (belief.BeliefConfig, "frames_per_update", 0),
     (belief.BeliefConfig, "replay_episodes", 15),  # A round has 16.
 ]
 
@@ -67,14 +67,12 @@ def test_variants_of_a_learner_have_titles_of_their_own():
     assert belief.BeliefConfig(replay_episodes=belief.NUM_ENVIRONMENTS).title == "belief_no_replay"
 
 
-def test_rules_set_caps_and_how_often_the_belief_learner_learns():
-    config = belief.BeliefConfig()
-    # Eight interactions, or with foresight one for each answer but one; a step of Adam for four frames, or 75,000.
-    assert [config.replace(foresight=True).longest(num_labels) for num_labels in (2, 9, 12)] == [8, 8, 11]
-    assert config.longest(12) == 8
-    assert [config.replace(frames=frames).period for frames in (1000, 300_000, 600_000)] == [4, 4, 8]
-    chosen = config.replace(frames=600_000, frames_per_update=1, max_interactions=3)
-    assert (chosen.period, chosen.longest(12)) == (1, 3)
+def test_with_foresight_rules_set_caps_and_how_often_the_belief_learner_learns():
+    usual, foresight = (belief.BeliefConfig(foresight=foresight) for foresight in (False, True))
+    # Eight interactions, or one for each answer but one; a step of Adam for four frames, or 75,000 steps.
+    assert [usual.longest(12), *map(foresight.longest, (2, 9, 12))] == [8, 8, 8, 11]
+    assert [config.replace(frames=600_000).period for config in (usual, foresight)] == [4, 8]
+    assert foresight.replace(frames=1000).period == 4
 
 
 def test_sums_are_learned_at_the_last_step_unless_answers_are_revealed():

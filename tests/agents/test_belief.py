@@ -109,8 +109,8 @@ def test_foresight_is_measured_on_the_steps_that_count():
 
 
 def test_the_change_to_the_next_observation_is_foreseen():
-    learner = make_agent(SMALL.replace(seed=fresh_seed(), foresight=True), "balance")
-    for _ in range(4):
+    learner = make_agent(SMALL.replace(seed=fresh_seed(), frames=3_000, foresight=True), "balance")
+    for _ in range(8):
         learner.step()
     episodes, _ = learner.variables.episodes.sample(np.random.default_rng(0), 64, ENSEMBLE, learner.next_episode)
     inputs, actions = episodes.padded(episodes.inputs.float()), torch.from_numpy(episodes.actions)

@@ -11,9 +11,7 @@ from physexp.checks import checked
 NUM_ENVIRONMENTS = 16
 """Environments that play side by side, one episode each between two rounds of learning."""
 
-_USUAL_INTERACTIONS = 8
-_LEAST_PERIOD = 4
-_MOST_UPDATES = 75_000
+_MOST_UPDATES = 75_000  # With foresight.
 
 Memory = Literal["attention", "lstm"]
 
@@ -54,16 +52,16 @@ class BeliefConfig(config.AgentConfig):
         "members learn to foresee observations",
     )
     max_interactions: int = checked(
-        0,
-        checks.whole(0, 10_000),
-        f"interactions of an episode at most; then it answers; 0 for {_USUAL_INTERACTIONS}, and with foresight for "
-        "more if it takes more to rule out all answers but one",
+        8,
+        checks.whole(1, 10_000),
+        "interactions of an episode at most; then it answers; with foresight, at least as many as rule out all answers "
+        "but one",
     )
     frames_per_update: int = checked(
-        0,
-        checks.whole(0),
-        f"environment steps for each step of Adam; fewer learn more from each; 0 for {_LEAST_PERIOD}, or more if these "
-        f"would be over {_MOST_UPDATES:,} steps",
+        4,
+        checks.whole(1),
+        "environment steps for each step of Adam; fewer learn more from each; with foresight, at least as many as make "
+        f"{_MOST_UPDATES:,} steps of Adam",
     )
     replay_episodes: int = checked(
         60_000, checks.whole(NUM_ENVIRONMENTS, 100_000_000), "episodes that are kept to learn from; the oldest go"
@@ -90,7 +88,7 @@ class BeliefConfig(config.AgentConfig):
     @property
     def period(self) -> int:
         """Returns the environment steps for each step of Adam."""
-        return self.frames_per_update or max(_LEAST_PERIOD, self.frames // _MOST_UPDATES)
+        return max(self.frames_per_update, self.frames // _MOST_UPDATES if self.foresight else 0)
 
     @property
     def learns_every_step(self) -> bool:
@@ -99,4 +97,4 @@ class BeliefConfig(config.AgentConfig):
 
     def longest(self, num_labels: int) -> int:
         """Returns the interactions that an episode may have."""
-        return self.max_interactions or max(_USUAL_INTERACTIONS, num_labels - 1 if self.foresight else 0)
+        return max(self.max_interactions, num_labels - 1 if self.foresight else 0)
