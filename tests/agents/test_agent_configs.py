@@ -67,7 +67,7 @@ def test_variants_of_a_learner_have_titles_of_their_own():
     assert belief.BeliefConfig(replay_episodes=belief.NUM_ENVIRONMENTS).title == "belief_no_replay"
 
 
-def test_with_foresight_rules_set_caps_and_how_often_the_belief_learner_learns():
+def test_foresight_sets_caps_and_how_often_the_learner_learns_by_rules():
     usual, foresight = (belief.BeliefConfig(foresight=foresight) for foresight in (False, True))
     # Eight interactions, or one for each answer but one; a step of Adam for four frames, or 75,000 steps.
     assert [usual.longest(12), *map(foresight.longest, (2, 9, 12))] == [8, 8, 8, 11]
