@@ -60,8 +60,8 @@ class BeliefConfig(config.AgentConfig):
     frames_per_update: int = checked(
         4,
         checks.whole(1),
-        "environment steps for each step of Adam; fewer learn more from each; with foresight, at least as many as make "
-        f"{_MOST_UPDATES:,} steps of Adam",
+        "environment steps for each step of Adam; fewer learn more from each; with foresight, more if training would "
+        f"have over {_MOST_UPDATES:,} steps of Adam",
     )
     replay_episodes: int = checked(
         60_000, checks.whole(NUM_ENVIRONMENTS, 100_000_000), "episodes that are kept to learn from; the oldest go"
