@@ -126,7 +126,7 @@ class Belief(synchronous.SynchronousAgent):
         played, is_last = torch.from_numpy(episodes.played), torch.from_numpy(episodes.is_last)
         are_answers = played & (actions >= num_interactions)
         are_ends, steps = are_answers | is_last, torch.arange(len(actions))[:, None]
-        weight = 1.0  # Of the steps before the end of a question.
+        weight = torch.ones(())  # Of the steps before the end of a question.
         ends = torch.where(are_ends, steps, len(actions) - 1).flip(0).cummin(0).values.flip(0)
         at_end = ends, torch.arange(actions.shape[1])
         num_questions = self._environment.num_questions
@@ -140,8 +140,9 @@ class Belief(synchronous.SynchronousAgent):
             answered = (actions - num_interactions).clamp(min=0)
             labels = losses.label_posterior(held_out_logits[at_end], answered[at_end], are_right[at_end])
             are_counted = played & are_answers[at_end]
-            if num_questions == 1:  # These targets are guesses then, as good as the answers are.
-                weight = float((are_right & are_answers).sum() / are_answers.sum().clamp(min=1))
+            if num_questions == 1:  # Those steps have guesses for targets; together they count as one that is so good.
+                share_right = (are_right & are_answers).sum() / are_answers.sum().clamp(min=1)
+                weight = share_right / torch.from_numpy(episodes.lengths - 1).clamp(min=1)
         return are_ends, labels, are_counted * torch.where(are_ends, 1.0, weight * self._config.every_step)
 
     def _measure_changes(self, played: rounds.Round) -> None:
