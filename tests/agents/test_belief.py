@@ -100,17 +100,17 @@ def test_the_belief_is_learned_at_every_step_or_at_the_last_one(every_step, monk
 
 
 @pytest.mark.parametrize("every_step", [True, False])
-def test_earlier_steps_together_count_as_the_share_of_right_answers(every_step):
-    learner = make_agent(SMALL.replace(seed=fresh_seed(), every_step=every_step))
+def test_guesses_count_by_the_share_of_right_answers_and_their_number(every_step):
+    learner = make_agent(SMALL.replace(seed=fresh_seed(), every_step=every_step, foresight=True))
     learner.step()
     episodes, _ = learner.variables.episodes.sample(np.random.default_rng(0), 16, ENSEMBLE, 1)
     _, _, weights = learner._label_targets(episodes, torch.zeros(*episodes.actions.shape, 4))
     share = sum(episodes.rewards.max(axis=0) > 0) / 16 if every_step else 0.0
     expected = np.zeros(episodes.actions.shape, np.float32)
     for episode, length in enumerate(episodes.lengths):
-        expected[:length, episode] = share / max(1, length - 1)
+        expected[:length, episode] = share / max(1, length - 1) ** 0.5
         expected[length - 1, episode] = 1.0
-    np.testing.assert_allclose(weights, expected)
+    np.testing.assert_allclose(weights, expected, rtol=1e-6)
 
 
 def test_foresight_is_measured_on_the_steps_that_count():

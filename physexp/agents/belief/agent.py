@@ -140,9 +140,9 @@ class Belief(synchronous.SynchronousAgent):
             answered = (actions - num_interactions).clamp(min=0)
             labels = losses.label_posterior(held_out_logits[at_end], answered[at_end], are_right[at_end])
             are_counted = played & are_answers[at_end]
-            if num_questions == 1:  # Those steps have guesses for targets; together they count as one that is so good.
+            if self._config.foresight and num_questions == 1:  # Sums of evidence would grow sure of their own guesses.
                 share_right = (are_right & are_answers).sum() / are_answers.sum().clamp(min=1)
-                weight = share_right / torch.from_numpy(episodes.lengths - 1).clamp(min=1)
+                weight = share_right / torch.from_numpy(episodes.lengths - 1).clamp(min=1).sqrt()
         return are_ends, labels, are_counted * torch.where(are_ends, 1.0, weight * self._config.every_step)
 
     def _measure_changes(self, played: rounds.Round) -> None:
