@@ -75,6 +75,13 @@ def test_foresight_sets_caps_and_how_often_the_learner_learns_by_rules():
     assert foresight.replace(frames=1000).period == 4
 
 
+def test_sums_are_learned_at_the_last_step_unless_answers_are_revealed():
+    config = belief.BeliefConfig()
+    assert config.learns_every_step and not config.replace(every_step=False).learns_every_step
+    assert not config.replace(foresight=True).learns_every_step
+    assert config.replace(foresight=True, answers_revealed=True).learns_every_step
+
+
 def test_costs_and_rates_decay_over_training():
     config = a3c.A3CConfig(frames=1000, learning_rate=0.1, entropy_cost=0.1, final_entropy_cost=0.001)
     assert config.at(0) == (0.1, 0.1)

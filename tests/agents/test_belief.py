@@ -99,20 +99,6 @@ def test_the_belief_is_learned_at_every_step_or_at_the_last_one(every_step, monk
     assert found == pytest.approx(float(sum(means) / len(means)), rel=1e-4)
 
 
-@pytest.mark.parametrize("every_step", [True, False])
-def test_guesses_count_by_the_share_of_right_answers_and_their_number(every_step):
-    learner = make_agent(SMALL.replace(seed=fresh_seed(), every_step=every_step, foresight=True))
-    learner.step()
-    episodes, _ = learner.variables.episodes.sample(np.random.default_rng(0), 16, ENSEMBLE, 1)
-    _, _, weights = learner._label_targets(episodes, torch.zeros(*episodes.actions.shape, 4))
-    share = sum(episodes.rewards.max(axis=0) > 0) / 16 if every_step else 0.0
-    expected = np.zeros(episodes.actions.shape, np.float32)
-    for episode, length in enumerate(episodes.lengths):
-        expected[:length, episode] = share / max(1, length - 1) ** 0.5
-        expected[length - 1, episode] = 1.0
-    np.testing.assert_allclose(weights, expected, rtol=1e-6)
-
-
 def test_foresight_is_measured_on_the_steps_that_count():
     # Huber's loss is half of a squared error below 1, and the error less a half above: 0.5 * 0.5^2 + (3 - 0.5) at the
     # first step of the first episode, 0 at its second; the second episode does not count.
@@ -293,28 +279,16 @@ def first_choices(monkeypatch, action_values, num_interactions, **constants):
 def test_the_environments_explore_from_much_to_little(monkeypatch):
     # The first interaction is best by far, so any other was drawn; of the drawn ones, three of four are others.
     values = [1.0, 0, 0, 0, -1, -1, -1, -1]
-    constants = {"_EARLY_STOP_FRACTION": 0.0, "_START_FRACTION": 0.0, "_EVAL_FRACTION": 0.5}
-    actions, policy = first_choices(monkeypatch, values, 4, **constants)
+    actions, policy = first_choices(monkeypatch, values, 4, _EARLY_STOP_FRACTION=0.0, _EVAL_FRACTION=0.5)
     assert policy.are_greedy.tolist() == [True] * 3000 + [False] * 3000 and not actions[:3000].any()
     assert (actions[3000:3100] != 0).mean() == pytest.approx(0.75 * 0.6, abs=0.25)  # Five standard errors.
     assert (actions[-1000:] != 0).mean() < 0.75 * 0.6 / 5
 
 
-def test_half_of_the_exploring_episodes_begin_with_a_random_interaction(monkeypatch):
-    values = [1.0, 0, 0, 0, -1, -1, -1, -1]
-    constants = {"_EARLY_STOP_FRACTION": 0.0, "_EPSILON_MAX": 0.0, "_EVAL_FRACTION": 0.5}
-    actions, policy = first_choices(monkeypatch, values, 4, **constants)
-    assert not actions[:3000].any()
-    assert (actions[3000:] != 0).mean() == pytest.approx(0.5 * 0.75, abs=0.045)  # Five standard errors of 3000 draws.
-    later = torch.tensor(values).repeat(6000, 1)
-    output = networks_lib.Output(later, later.max(1).values, later)
-    assert not policy.choose(output, np.arange(6000), 1).any()
-
-
 def test_answers_in_training_are_drawn_from_the_belief_and_some_uniformly(monkeypatch):
     belief_now = np.array([0.5, 0.3, 0.1, 0.1, 0.0, 0.0, 0.0, 0.0])
     values = [-1.0, -1.0, *(2 * belief_now - 1)]
-    constants = {"_EARLY_STOP_FRACTION": 0.0, "_START_FRACTION": 0.0, "_EVAL_FRACTION": 0.0, "_EPSILON_MAX": 0.0}
+    constants = {"_EARLY_STOP_FRACTION": 0.0, "_EVAL_FRACTION": 0.0, "_EPSILON_MAX": 0.0}
     actions, policy = first_choices(monkeypatch, values, 2, **constants)
     shares = np.bincount(actions - 2, minlength=8) / 6000
     # Five standard errors of a share of 6000 draws: 5 * sqrt(0.5 * 0.5 / 6000) = 0.033.

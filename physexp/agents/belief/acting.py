@@ -6,7 +6,6 @@ from physexp.agents import acting, networks, starting
 from physexp.agents.belief import config as config_lib
 
 _EVAL_FRACTION = 0.25  # Share of the episodes that are played greedily; they measure how well the agent plays.
-_START_FRACTION = 0.5  # Share of the others that begin with a random interaction.
 _EARLY_STOP_FRACTION = 0.5  # Share of the others that are answered after a random number of interactions.
 _EPSILON_MAX = 0.6  # Share of random interactions in the environment that explores most.
 _EPSILON_RATIO = 1 / 30  # Of the smallest to the largest epsilon.
@@ -16,10 +15,9 @@ _RANDOM_ANSWERS = 0.1  # Share of the answers that are drawn uniformly.
 class BehaviourPolicy:
     """Chooses the actions of one round: greedily in the first episodes, and exploring in the others.
 
-    There some interactions are drawn at random, in some environments more than in others (Horgan et al., 2018). Some
-    episodes begin with a random interaction (exploring starts: Sutton & Barto, 2018, Section 5.3), and some are
-    answered after a random number of interactions. Answers are drawn from the belief, and some of them uniformly: a
-    label that is never answered is never found to be right.
+    There some interactions are drawn at random, in some environments more than in others (Horgan et al., 2018); some
+    episodes are answered after a random number of interactions; and answers are drawn from the belief, some of them
+    uniformly: a label that is never answered is never found to be right.
 
     Attributes:
       are_greedy: which episodes it plays greedily, bool [B].
@@ -35,7 +33,6 @@ class BehaviourPolicy:
         num_exploring = int((~self.are_greedy).sum())
         self._epsilons = np.zeros(size)
         self._epsilons[~self.are_greedy] = _EPSILON_MAX * np.geomspace(1, _EPSILON_RATIO, num_exploring)
-        self._start_at_random = (generator.random(size) < _START_FRACTION) & ~self.are_greedy
         stops_early = (generator.random(size) < _EARLY_STOP_FRACTION) & ~self.are_greedy
         drawn = generator.integers(longest + 1, size=size)
         self._max_interactions = np.where(stops_early, drawn, longest)
@@ -47,7 +44,6 @@ class BehaviourPolicy:
         values = output.action_values.cpu().numpy().astype(np.float64)
         interacting, answering = values[:, :num_interactions], values[:, num_interactions:]
         is_random = generator.random(len(values)) < self._epsilons[active]
-        is_random |= self._start_at_random[active] & (step == 0)
         drawn = generator.integers(num_interactions, size=len(values))
         interactions = np.where(is_random, drawn, interacting.argmax(1))
         beliefs = (answering + 1) / 2

@@ -90,8 +90,8 @@ class Belief(synchronous.SynchronousAgent):
             outputs_of_held_out = averaged.held_out(inputs, actions.to(network.device))
         held_out_logits, held_out_shares = (part.cpu() for part in outputs_of_held_out)
         learns = torch.arange(networks.ENSEMBLE_SIZE)[:, None, None] != held_out
-        are_ends, labels, weights = self._label_targets(episodes, held_out_logits)
-        belief_loss = losses.belief_loss(logits, labels, weights * learns)
+        are_ends, labels, are_counted = self._label_targets(episodes, held_out_logits)
+        belief_loss = losses.belief_loss(logits, labels, are_counted & learns)
         beliefs = held_out_logits.softmax(-1)
         best = (shares.detach() * learns[..., None]).sum(0).argmax(-1)  # By the members that learn from the episode.
         interacting = network.values(beliefs, held_out_shares).gather(-1, best[..., None])[..., 0]
@@ -117,16 +117,15 @@ class Belief(synchronous.SynchronousAgent):
     def _label_targets(
         self, episodes: rounds.Round, held_out_logits: torch.Tensor
     ) -> tuple[torch.Tensor, torch.Tensor, torch.Tensor]:
-        """Returns where questions end, bool [T, B], the targets of beliefs, and the weights of the steps, [T, B].
+        """Returns where questions end, bool [T, B], the targets of beliefs, and the steps that are learned from.
 
-        Targets are probabilities, [T, B, L], of the labels of the current question. The logits are those of the
-        held-out members' beliefs, [T, B, L].
+        Targets are probabilities, [T, B, L], of the labels of the current question, and steps are bool [T, B]. The
+        logits are those of the held-out members' beliefs, [T, B, L].
         """
         actions, num_interactions = torch.from_numpy(episodes.actions), self.variables.network.num_interactions
         played, is_last = torch.from_numpy(episodes.played), torch.from_numpy(episodes.is_last)
         are_answers = played & (actions >= num_interactions)
         are_ends, steps = are_answers | is_last, torch.arange(len(actions))[:, None]
-        weight = torch.ones(())  # Of the steps before the end of a question.
         ends = torch.where(are_ends, steps, len(actions) - 1).flip(0).cummin(0).values.flip(0)
         at_end = ends, torch.arange(actions.shape[1])
         num_questions = self._environment.num_questions
@@ -140,10 +139,7 @@ class Belief(synchronous.SynchronousAgent):
             answered = (actions - num_interactions).clamp(min=0)
             labels = losses.label_posterior(held_out_logits[at_end], answered[at_end], are_right[at_end])
             are_counted = played & are_answers[at_end]
-            if self._config.foresight and num_questions == 1:  # Sums of evidence would grow sure of their own guesses.
-                share_right = (are_right & are_answers).sum() / are_answers.sum().clamp(min=1)
-                weight = share_right / torch.from_numpy(episodes.lengths - 1).clamp(min=1).sqrt()
-        return are_ends, labels, are_counted * torch.where(are_ends, 1.0, weight * self._config.every_step)
+        return are_ends, labels, are_counted if self._config.learns_every_step else are_counted & are_ends
 
     def _measure_changes(self, played: rounds.Round) -> None:
         """Updates the unit of inputs: their root mean square change since the start of the episode."""

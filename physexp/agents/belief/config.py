@@ -48,7 +48,8 @@ class BeliefConfig(config.AgentConfig):
     foresight: bool = checked(
         False,
         checks.flag,
-        "the belief adds up the evidence of all steps, and members learn to foresee observations",
+        "the belief adds up the evidence of all steps, and is learned at the last one unless answers are revealed; "
+        "members learn to foresee observations",
     )
     max_interactions: int = checked(
         8,
@@ -88,6 +89,11 @@ class BeliefConfig(config.AgentConfig):
     def period(self) -> int:
         """Returns the environment steps for each step of Adam."""
         return max(self.frames_per_update, self.frames // _MOST_UPDATES if self.foresight else 0)
+
+    @property
+    def learns_every_step(self) -> bool:
+        """Returns whether the belief is learned at every step of an episode."""
+        return self.every_step and (self.answers_revealed or not self.foresight)
 
     def longest(self, num_labels: int) -> int:
         """Returns the interactions that an episode may have."""

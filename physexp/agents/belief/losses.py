@@ -28,12 +28,12 @@ def label_posterior(logits: torch.Tensor, answers: torch.Tensor, are_right: torc
     return torch.where(are_right[..., None], answered.float(), others)
 
 
-def belief_loss(logits: torch.Tensor, labels: torch.Tensor, weights: torch.Tensor) -> torch.Tensor:
-    """Returns the mean cross-entropy, [K], over the steps with their weights, [K, T, B].
+def belief_loss(logits: torch.Tensor, labels: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
+    """Returns the mean cross-entropy, [K], over the steps that count, bool [K, T, B].
 
     The logits are of the beliefs of K members, [K, T, B, L], and the labels are probabilities, [T, B, L].
     """
-    return _means(-(labels * logits.log_softmax(dim=-1)).sum(-1), weights)
+    return _means(-(labels * logits.log_softmax(dim=-1)).sum(-1), are_counted)
 
 
 def value_loss(values: torch.Tensor, targets: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
@@ -50,8 +50,8 @@ def foresight_loss(expected: torch.Tensor, moved: torch.Tensor, are_counted: tor
     return _means(errors, are_counted)
 
 
-def _means(errors: torch.Tensor, weights: torch.Tensor) -> torch.Tensor:
-    return (errors * weights).sum((1, 2)) / weights.sum((1, 2)).clamp(min=1)
+def _means(errors: torch.Tensor, are_counted: torch.Tensor) -> torch.Tensor:
+    return (errors * are_counted).sum((1, 2)) / are_counted.sum((1, 2)).clamp(min=1)
 
 
 def interaction_targets(

@@ -401,11 +401,11 @@ def shares(num_agents, generator, **of_learners):
     return of_agents(laboratory.CONDITIONS, num_agents, rows)
 
 
-def steps_to_targets(num_agents, generator, **hundreds):
-    """Environment steps to shares of the ideal's return, in all domains; `hundreds` to the first one, by title."""
+def steps_to_targets(num_agents, generator, hundreds=1):
+    """Environment steps to shares of the ideal's return, in all domains; `hundreds` are those of the first target."""
 
     def rows(config, seed):
-        steps = 100 * hundreds.get(config.player, 1) * 2.0 ** np.arange(len(few.TARGETS)) * generator.uniform(1, 1.2)
+        steps = 100 * hundreds * 2.0 ** np.arange(len(few.TARGETS)) * generator.uniform(1, 1.2)
         steps[-1] = np.inf
         return {"target": few.TARGETS, "steps": steps}
 
@@ -588,12 +588,7 @@ _MADE = {
         ("foresight misleads", {"belief_foresight": 0.5}, {"belief_foresight"}),
         ("foresight distracts", {"belief_revealed_foresight": 0.9}, {"belief_revealed_foresight"}),
     ),
-    "few": (
-        steps_to_targets,
-        _PAPER,
-        ("foresight is slow", {"belief_foresight": 1000}, {"soon"}),
-        ("only foresight is quick", {"belief": 1000}, {"soon_without"}),
-    ),
+    "few": (steps_to_targets, _PAPER, ("slow learners", {"hundreds": 1000}, {"soon"})),
 }
 
 WORLDS = {name: {world: false for world, _, false in worlds} for name, (_, *worlds) in _MADE.items()}
