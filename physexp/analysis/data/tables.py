@@ -46,7 +46,7 @@ def read(path: Path, schema: pyarrow.Schema) -> pyarrow.Table:
             thrift_string_size_limit=_MAX_FOOTER_ENTRY,
             thrift_container_size_limit=_MAX_FOOTER_ENTRY,
         ) as file:
-            _check_size(file.metadata)
+            _check_size(file)
             if file.schema_arrow.names != schema.names:
                 raise ValueError(f"its columns are not {', '.join(schema.names)}")
             found = file.read(use_threads=False)
@@ -65,11 +65,18 @@ def check(path: Path, max_bytes: int) -> None:
         raise ValueError(f"{path} has {status.st_size / 1e6:,.0f} MB; give a file of at most {max_bytes / 1e6:.0f} MB")
 
 
-def _check_size(metadata: parquet.FileMetaData) -> None:
+def _check_size(file: parquet.ParquetFile) -> None:
+    metadata = file.metadata
     groups = [metadata.row_group(index) for index in range(metadata.num_row_groups)]
-    num_values = sum(group.column(index).num_values for group in groups for index in range(group.num_columns))
+    num_rows = max(metadata.num_rows, sum(group.num_rows for group in groups))
     num_bytes = sum(group.total_byte_size for group in groups)
-    if not 0 <= max(num_values, metadata.num_rows) <= _MAX_VALUES or not 0 <= num_bytes <= _MAX_UNPACKED:
+    _limit(num_rows * metadata.num_columns, num_bytes)
+    file.scan_contents()  # Refuses a damaged description of a column, which would end the process in the next line.
+    _limit(sum(group.column(index).num_values for group in groups for index in range(group.num_columns)), num_bytes)
+
+
+def _limit(num_values: int, num_bytes: int) -> None:
+    if not 0 <= num_values <= _MAX_VALUES or not 0 <= num_bytes <= _MAX_UNPACKED:
         raise ValueError(f"it unpacks to {num_values:,} values, {num_bytes / 1e6:,.0f} MB: more than any table of ours")
 
 

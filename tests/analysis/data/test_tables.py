@@ -4,6 +4,7 @@ import io
 import os
 import random
 
+import bits
 import pandas as pd
 import pyarrow
 from pyarrow import parquet
@@ -73,6 +74,21 @@ def test_a_faulty_table_is_refused_in_one_line(case, tmp_path):
     with pytest.raises(ValueError, match=f"^{tmp_path / 'table'} is damaged .*; put back what was written") as refused:
         tables.read(tmp_path / "table", SCHEMA)
     assert "\n" not in str(refused.value)
+
+
+def test_a_table_is_read_or_refused_if_a_bit_of_its_footer_is_flipped(tmp_path):
+    path, schema = tmp_path / "table", pyarrow.schema([("actions", pyarrow.list_(pyarrow.int32()))])
+    tables.write(path, pyarrow.table([[[1], [2, 3]]], schema=schema))
+    written = path.read_bytes()
+    footer = int.from_bytes(written[-8:-4], "little")  # Its length stands before the last four bytes.
+    num_refused = 0
+    for bit in range(8 * (len(written) - 8 - footer), 8 * (len(written) - 8)):
+        path.write_bytes(bits.flipped(written, bit))
+        try:
+            assert tables.read(path, schema).schema == schema
+        except ValueError as error:
+            num_refused += str(error).startswith(f"{path} is damaged")
+    assert num_refused > footer  # An eighth of the bits, at least.
 
 
 @pytest.mark.parametrize("case", BOMBS)
