@@ -30,6 +30,10 @@ class Alternating(core.Batch):
     def is_told(self) -> bool:
         return self._batches[0].is_told
 
+    @property
+    def step_limit(self) -> int:
+        return self._batches[0].step_limit
+
     def observation_spec(self) -> Mapping[str, specs.Array]:
         return self._batches[0].observation_spec()
 

@@ -29,6 +29,10 @@ class Specs(Protocol):
     def is_told(self) -> bool:
         """Returns whether the first observation of an episode tells which question is asked."""
 
+    @property
+    def step_limit(self) -> int:
+        """Returns how many actions an episode may have."""
+
     def observation_spec(self) -> Mapping[str, specs.Array]:
         """Returns the spec of each array that one environment observes, by name."""
 

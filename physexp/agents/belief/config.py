@@ -95,6 +95,6 @@ class BeliefConfig(config.AgentConfig):
         """Returns whether the belief is learned at every step of an episode."""
         return self.every_step and (self.answers_revealed or not self.foresight)
 
-    def longest(self, num_labels: int) -> int:
-        """Returns the interactions that an episode may have."""
-        return max(self.max_interactions, num_labels - 1 if self.foresight else 0)
+    def longest(self, num_labels: int, step_limit: int) -> int:
+        """Returns the interactions that an episode may have: an answer has to follow them in time."""
+        return min(max(self.max_interactions, num_labels - 1 if self.foresight else 0), step_limit - 1)

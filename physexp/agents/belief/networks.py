@@ -83,7 +83,7 @@ class BeliefNetwork(networks.RecurrentNetwork):
         return {
             "num_interactions": task.num_interactions,
             "memory": config.memory,
-            "max_interactions": config.longest(task.action_spec().num_values - task.num_interactions),
+            "max_interactions": config.longest(task.action_spec().num_values - task.num_interactions, task.step_limit),
             "discount": config.discount,
             **({"sees_start": True} if task.is_told else {}),
             **({"foresight": True} if config.foresight else {}),

@@ -78,6 +78,10 @@ class BatchEnvironment:
         return self.task.is_told
 
     @property
+    def step_limit(self) -> int:
+        return self.task.step_limit
+
+    @property
     def num_questions(self) -> int:
         return self.task.rules.num_questions
 

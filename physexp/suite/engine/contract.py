@@ -186,6 +186,11 @@ class Task(abc.ABC):
         return self.told is not None
 
     @property
+    def step_limit(self) -> int:
+        """Maximum number of actions in an episode."""
+        return self.rules.step_limit
+
+    @property
     def num_labels(self) -> int:
         return len(self.label_names)
 
