@@ -69,10 +69,11 @@ def test_variants_of_a_learner_have_titles_of_their_own():
 
 def test_foresight_sets_caps_and_how_often_the_learner_learns_by_rules():
     usual, foresight = (belief.BeliefConfig(foresight=foresight) for foresight in (False, True))
-    # Eight interactions, or one for each answer but one, and an answer in time; a step of Adam for four frames, or 75,000.
-    limits = [(2, 40), (12, 40), (64, 40), (2, 5)]  # Numbers of answers, and the actions that an episode may have.
-    assert [usual.longest(*each) for each in limits] == [8, 8, 8, 4]
-    assert [foresight.longest(*each) for each in limits] == [8, 11, 39, 4]
+    # Eight interactions, or one for each answer but one, and time for an answer; a step of Adam for four frames, or
+    # 75,000 steps.
+    limits = [(2, 40), (12, 40), (64, 40), (2, 5), (2, 1)]  # Answers, and the actions that an episode may have.
+    assert [usual.longest(*each) for each in limits] == [8, 8, 8, 4, 1]
+    assert [foresight.longest(*each) for each in limits] == [8, 11, 39, 4, 1]
     assert [config.replace(frames=600_000).period for config in (usual, foresight)] == [4, 8]
     assert foresight.replace(frames=1000).period == 4
 

@@ -96,5 +96,5 @@ class BeliefConfig(config.AgentConfig):
         return self.every_step and (self.answers_revealed or not self.foresight)
 
     def longest(self, num_labels: int, step_limit: int) -> int:
-        """Returns the interactions that an episode may have: an answer has to follow them in time."""
-        return min(max(self.max_interactions, num_labels - 1 if self.foresight else 0), step_limit - 1)
+        """Returns the interactions that an episode may have, at least one: an answer has to follow them in time."""
+        return min(max(self.max_interactions, num_labels - 1 if self.foresight else 0), max(1, step_limit - 1))
