@@ -34,8 +34,9 @@ SLACKS = {3: (0.004, 0.010), 4: (0.003, 0.006)}  # m, the least and the greatest
 _BAND = {3: 60.0, 4: 120.0}  # N/m
 _PULL = {3: 8.0, 4: 14.0}  # N
 _AWAY = 0.005  # m, the distance from home that is read
-# A clamp is a brake: it is as if the puck stood in honey that lets it creep by a nanometre in an episode.
-_BRAKE = 1e9  # N s/m
+# A clamp is a brake: it is as if the puck stood in honey that lets it creep by less than a micrometre in an episode. It
+# catches pucks at up to 0.2 m/s, and MuJoCo takes an acceleration of more than 1e10 m/s^2 for divergence.
+_BRAKE = 1e8  # N s/m
 
 _SHORTEST_STEP = 0.1  # s: pucks come home within it
 
