@@ -107,7 +107,8 @@ _BUDGETS = {  # The easier the task, the sooner its curve is flat.
     "lump features": _Budget("lump features", belief=40_000, a3c=1_000_000),
 }
 _PAPERS_FRAMES = 2_000_000  # Of the paper's own learner at difficulty 10 from features.
-_NOISY_FRAMES = 120_000  # Of the belief learner at difficulty 5 from features, with noise.
+# Of the belief learner at difficulty 5 from features with noise, without foresight and with it.
+_NOISY_FRAMES, _FORESEEING_FRAMES = 120_000, 300_000
 _TIMED_FRAMES = 200_000  # Of the belief learner with the fist from features, with control steps of many lengths.
 # Environment steps for each update where images vary: agents that learn more from each memorize them.
 _VARIED_FRAMES_PER_UPDATE = 16
@@ -231,7 +232,8 @@ def with_step_variation(condition: Condition, player: str) -> Condition:
 
 def with_noise(condition: Condition, player: str, noise: float) -> Condition:
     """Returns a condition with noise of a standard deviation, m, and the belief learner's budget for that."""
-    return condition.changed(condition.agent.replace(frames=_NOISY_FRAMES), player, noise=noise)
+    frames = _FORESEEING_FRAMES if condition.agent.foresight else _NOISY_FRAMES
+    return condition.changed(condition.agent.replace(frames=frames), player, noise=noise)
 
 
 def spelled_out(text: str) -> str:

@@ -26,9 +26,14 @@ _GAPS = (_EDGES[1:] + _EDGES[:-1]) / 2  # The middles of the bins.
 
 _NOISE = 0.03  # m, of each reading.
 EXACT, NOISY = "exact readings", f"readings with noise of {1000 * _NOISE:g} mm"
+FORESEEING = "the same noise, with foresight"
 _BELIEF = conditions.with_belief(conditions.BY_LABEL["5-F"])
-READINGS = (_BELIEF.changed(player=EXACT), conditions.with_noise(_BELIEF, NOISY, _NOISE))
-"""The agents of `noise`, by the readings in training and test."""
+READINGS = (
+    _BELIEF.changed(player=EXACT),
+    conditions.with_noise(_BELIEF, NOISY, _NOISE),
+    conditions.with_noise(conditions.with_foresight(conditions.BY_LABEL["5-F"])[0], FORESEEING, _NOISE),
+)
+"""The agents of `noise`, by the readings in training and test, and by the learner."""
 
 
 def with_blocks(episodes):
@@ -162,9 +167,9 @@ def prepare_noise(results: base.Results, report: Callable[[str], None]) -> None:
 
 
 def load_noise(results: base.Results):
-    """Returns episodes with the number of repeated pokes, `again`; the player is EXACT or NOISY.
+    """Returns episodes with the number of repeated pokes, `again`; the player is EXACT, NOISY, or FORESEEING.
 
-    The `share` of NOISY is that of the return of an experimenter that knows of the noise.
+    With noise, the `share` is that of the return of an experimenter that knows of the noise.
 
     Raises:
       ValueError: if no agent has played with noise.
@@ -181,9 +186,9 @@ def _by_agent(statistic: Callable[[Any], float], player: str, frame):
     return pandas.Series({seed: statistic(agent) for seed, agent in agents}, dtype=float)
 
 
-def _with_noise(statistic: Callable[[Any], float]) -> claims.Statistic:
+def _with_noise(statistic: Callable[[Any], float], player: str = NOISY) -> claims.Statistic:
     """Returns the mean over agents of a statistic of the episodes with noise."""
-    return claims.of_rows(lambda frame: estimates.mean(_by_agent(statistic, NOISY, frame)))
+    return claims.of_rows(lambda frame: estimates.mean(_by_agent(statistic, player, frame)))
 
 
 def _noisy_less_exact(statistic: Callable[[Any], float]) -> claims.Statistic:
@@ -251,6 +256,7 @@ EXPERIMENTS = {
             "again_if_small": _with_noise(_gap_of_repeats),
             "longer_if_small": _with_noise(_correlation),
             "near_ideal": _with_noise(lambda agent: agent.share.mean()),
+            "foresight": _with_noise(lambda agent: agent.share.mean(), FORESEEING),
             "again": _noisy_less_exact(lambda agent: agent.again.mean()),
             "steeper": _noisy_less_exact(_slope_of_repeats),
             "clearer": _noisy_less_exact(_correlation),

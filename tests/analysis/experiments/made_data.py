@@ -225,22 +225,25 @@ def slopes(num_agents, generator, slope=-4.0, odd_one=None, seen=0.8, lost=1 / _
     return frame.assign(blocks=2.5 + seen * slope * (frame.mass_gap - 0.5))
 
 
-def second_pokes(num_agents, generator, noisy=0.6, exact=0.0, widest=0.3, slope=-4.0, exact_slope=-1.0, share=0.98):
+def second_pokes(
+    num_agents, generator, noisy=0.6, exact=0.0, widest=0.3, slope=-4.0, exact_slope=-1.0, share=0.98, foreseeing=0.98
+):
     """Repeated pokes with noise and without, in these shares of the episodes with gaps up to the widest.
 
-    All pokes have these slopes on the mass gap, with noise and without.
+    All pokes have these slopes on the mass gap, with noise and without. Agents earn a share without foresight and with.
     """
     count = 2 * _EPISODES  # Repeated pokes are rare.
     gaps = generator.random((num_agents, count))
 
     def rows(config, seed):
-        again, steep = (noisy, slope) if config.player == mass_gaps.NOISY else (exact, exact_slope)
+        again, steep = (exact, exact_slope) if config.player == mass_gaps.EXACT else (noisy, slope)
+        earned = foreseeing if config.player == mass_gaps.FORESEEING else share
         repeated = (gaps[seed] < widest) & (generator.random(count) < again - 0.02 * generator.random())
         return {
             "mass_gap": gaps[seed],
             "again": repeated.astype(int),
             "interactions": 4 + steep * (gaps[seed] - 0.5) + generator.normal(0, 1, count),
-            "share": share + generator.normal(0, 0.01, count),
+            "share": earned + generator.normal(0, 0.01, count),
         }
 
     return of_agents(mass_gaps.READINGS, num_agents, rows)
@@ -561,6 +564,7 @@ _MADE = {
         ("hard is quick", {"slope": 4.0}, {"longer_if_small", "clearer"}),
         ("noise hides the gap", {"exact_slope": -8.0}, {"clearer"}),
         ("clumsy", {"share": 0.9}, {"near_ideal"}),
+        ("foresight in vain", {"foreseeing": 0.8}, {"foresight"}),
     ),
     "weighing": (_weighing, _PAPER, ("as with coins", {"alone": 0.5}, {"one_against_one"})),
     "clamping": (
