@@ -73,11 +73,12 @@ def trainer(run, **kwargs):
 
 
 def group(leader):
-    """The living processes of a group."""
+    """The living processes of a group; one lives, and holds its locks, until its last thread has ended."""
     found = []
     for process in psutil.process_iter():
         with contextlib.suppress(ProcessLookupError, psutil.NoSuchProcess):
-            if os.getpgid(process.pid) == leader and process.status() != psutil.STATUS_ZOMBIE:
+            lives = process.status() != psutil.STATUS_ZOMBIE or process.num_threads() > 1
+            if lives and os.getpgid(process.pid) == leader:
                 found.append(process)
     return found
 
