@@ -222,7 +222,7 @@ def _draw_noise(frame):
             lines = [by_gap(agent.mass_gap.to_numpy(), agent[column].to_numpy()) for _, agent in agents]
             curves.draw_spread(axes, _GAPS, lines, number, readings)
         axes.set(xlabel="mass gap", ylabel=label, xlim=(0, 1), ylim=(0, None))
-    panels[0].legend()
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=len(READINGS))
     figure.suptitle(plots.seeds(frame[frame.player == NOISY]), fontsize=7, x=0.99, ha="right")
     return figure
 
