@@ -7,6 +7,7 @@ from typing import Any
 from physexp import suite
 from physexp.agents import config as agent_config
 from physexp.agents.a3c import config as a3c
+from physexp.agents.belief import config as belief
 from physexp.analysis import domains
 from physexp.analysis.domains import which_is_heavier
 from physexp.analysis.training import config as config_lib
@@ -232,6 +233,7 @@ def with_step_variation(condition: Condition, player: str) -> Condition:
 
 def with_noise(condition: Condition, player: str, noise: float) -> Condition:
     """Returns a condition with noise of a standard deviation, m, and the belief learner's budget for that."""
+    assert isinstance(condition.agent, belief.BeliefConfig)
     frames = _FORESEEING_FRAMES if condition.agent.foresight else _NOISY_FRAMES
     return condition.changed(condition.agent.replace(frames=frames), player, noise=noise)
 
