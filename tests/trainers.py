@@ -77,8 +77,9 @@ def group(leader):
     found = []
     for process in psutil.process_iter():
         with contextlib.suppress(ProcessLookupError, psutil.NoSuchProcess):
-            lives = process.status() != psutil.STATUS_ZOMBIE or process.num_threads() > 1
-            if lives and os.getpgid(process.pid) == leader:
+            if os.getpgid(process.pid) != leader:
+                continue
+            if process.status() != psutil.STATUS_ZOMBIE or process.num_threads() > 1:
                 found.append(process)
     return found
 

@@ -198,6 +198,10 @@ def _noisy_less_exact(statistic: Callable[[Any], float]) -> claims.Statistic:
     )
 
 
+def _share(agent) -> float:
+    return float(agent.share.mean())
+
+
 def _correlation(agent) -> float:
     return estimates.correlation(*agent[["mass_gap", "interactions"]].to_numpy(float).T).value
 
@@ -255,8 +259,8 @@ EXPERIMENTS = {
         statistics={
             "again_if_small": _with_noise(_gap_of_repeats),
             "longer_if_small": _with_noise(_correlation),
-            "near_ideal": _with_noise(lambda agent: agent.share.mean()),
-            "foresight": _with_noise(lambda agent: agent.share.mean(), FORESEEING),
+            "near_ideal": _with_noise(_share),
+            "foresight": _with_noise(_share, FORESEEING),
             "again": _noisy_less_exact(lambda agent: agent.again.mean()),
             "steeper": _noisy_less_exact(_slope_of_repeats),
             "clearer": _noisy_less_exact(_correlation),
