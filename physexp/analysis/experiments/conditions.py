@@ -126,14 +126,15 @@ def heavier(
 
 
 def with_one_worker(condition: Condition, player: str = "") -> Condition:
-    """Returns a condition with A3C of one worker, whose gradients are never stale, and with a name."""
+    """Returns a condition with A3C of one worker, whose gradients are never stale; it keeps its name if given none."""
     assert isinstance(condition.agent, a3c.A3CConfig)
-    return condition.changed(condition.agent.replace(num_workers=1), player)
+    return condition.changed(condition.agent.replace(num_workers=1), player or condition.player)
 
 
 def towers(actuator: str, observations: str = "features") -> Condition:
     """Returns A3C on Towers with an actuator."""
-    return _with_preset("towers", f"{actuator}_{observations}")
+    condition = _with_preset("towers", f"{actuator}_{observations}")
+    return with_one_worker(condition) if observations == "pixels" else condition
 
 
 def _with_preset(domain: str, task: str) -> Condition:
@@ -141,15 +142,14 @@ def _with_preset(domain: str, task: str) -> Condition:
     agent = config_lib.preset(domain, task, algorithm="a3c")
     task_kwargs = domains.find(domain).usual_options
     condition = Condition(domain=domain, task=task, task_kwargs=task_kwargs, agent=agent)
-    agent = agent.replace(frames=_BUDGETS[condition.label].a3c or agent.frames)
-    return with_one_worker(condition.changed(agent), condition.player)
+    return condition.changed(agent.replace(frames=_BUDGETS[condition.label].a3c or agent.frames))
 
 
 FEATURES = tuple(heavier(beta, "features", _BUDGETS[f"{beta:g}-F"].a3c) for beta in DIFFICULTIES)
 
 _PIXELS = tuple(heavier(beta, "pixels", _BUDGETS[f"{beta:g}-P"].a3c) for beta in DIFFICULTIES)
 
-HEAVIER = (*FEATURES, *(with_one_worker(task, task.player) for task in _PIXELS))
+HEAVIER = (*FEATURES, *(with_one_worker(task) for task in _PIXELS))
 """A3C at the paper's gamma of 0.95."""
 
 PATIENT = tuple(
@@ -169,7 +169,7 @@ BY_LABEL = {condition.label: condition for condition in (*HEAVIER, *TOWERS)}
 """A3C on the paper's tasks, by their labels."""
 
 OTHERS = THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE, CRUSH, LUMP = tuple(
-    _with_preset(domain, "features")
+    with_one_worker(_with_preset(domain, "features"))
     for domain in ("threshold", "balance", "strings", "sealed_box", "strike", "crush", "lump")
 )
 """A3C in the domains that are not the paper's."""
@@ -192,7 +192,7 @@ def with_papers_learner(condition: Condition) -> Condition:
         observation_scale=1.0,
         relative_pixels=False,
     )
-    return with_one_worker(condition.changed(agent), agent.title)
+    return with_one_worker(condition.changed(agent))
 
 
 def with_belief(condition: Condition, **changes: Any) -> Condition:

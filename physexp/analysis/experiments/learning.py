@@ -14,8 +14,10 @@ _TASKS = tuple(conditions.BY_LABEL[label] for label in ("5-F", "F-F"))
 LEARNERS = tuple(condition for task in _TASKS for condition in (task, conditions.with_ppo(task)))
 _NAMES = {"ppo": "PPO", "a3c": "A3C"}
 
-WORKERS = tuple(each for task in conditions.FEATURES for each in (task, conditions.with_one_worker(task)))
 _NUMBERS = {"a3c": "two workers", "a3c_one_worker": "one worker"}
+WORKERS = tuple(
+    each for task in conditions.FEATURES for each in (task, conditions.with_one_worker(task, "a3c_one_worker"))
+)
 
 
 def load_heavier(results: base.Results):
