@@ -15,9 +15,8 @@ LEARNERS = tuple(condition for task in _TASKS for condition in (task, conditions
 _NAMES = {"ppo": "PPO", "a3c": "A3C"}
 
 _NUMBERS = {"a3c": "two workers", "a3c_one_worker": "one worker"}
-WORKERS = tuple(
-    each for task in conditions.FEATURES for each in (task, conditions.with_one_worker(task, "a3c_one_worker"))
-)
+_ASYNCHRONOUS = (*conditions.FEATURES, *map(conditions.towers, ("direct", "fist")))
+WORKERS = tuple(each for task in _ASYNCHRONOUS for each in (task, conditions.with_one_worker(task, "a3c_one_worker")))
 
 
 def load_heavier(results: base.Results):
@@ -96,13 +95,13 @@ def _draw_towers(frame):
 
 
 def _draw_workers(frame):
-    """Draws a panel for each difficulty."""
+    """Draws a panel for each condition."""
     by_task = dict(list(frame.groupby("condition", sort=False)))
-    figure, panels = plots.new(columns=len(by_task), width=2.6, height=2.2, sharey=True, squeeze=False)
+    figure, panels = plots.new(columns=len(by_task), width=2.0, height=2.2, sharey=True, squeeze=False)
     for axes, (name, rows) in zip(panels[0], by_task.items(), strict=True):
         players = dict(list(rows.groupby("player")))
         lines = {words: curves.better_half(players[each]) for each, words in _NUMBERS.items() if each in players}
-        curves.draw_panel(axes, lines, conditions.HEAVIER[0].chance)
+        curves.draw_panel(axes, lines, conditions.BY_LABEL[name].chance)
         axes.set_title(conditions.tick(name))
     panels[0, 0].set_ylabel("share of right answers")
     panels[0, 0].legend(loc="lower right", bbox_to_anchor=(1, 0.3))
