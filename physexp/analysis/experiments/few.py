@@ -1,4 +1,4 @@
-"""Few steps: how soon one configuration of the belief learner comes near the optimum in every domain. Ours."""
+"""Few steps: how soon a configuration of the belief learner comes near the optimum in every domain. Ours."""
 
 import numpy as np
 import pandas
@@ -11,21 +11,28 @@ TARGETS = (0.5, 0.8, 0.9, 0.95, 0.99)
 FEW = 20_000
 """Environment steps."""
 
-CONDITIONS = tuple(map(conditions.with_belief, laboratory.TASKS))
+LEARNERS = {"belief": "belief", "belief_foresight": "belief, with foresight"}
+"""Configurations by title; both learn from the reward alone."""
+
+CONDITIONS = tuple(
+    condition
+    for task in laboratory.TASKS
+    for condition in (conditions.with_belief(task), conditions.with_foresight(task)[0])
+)
 
 
 def load(results: base.Results):
     """Returns a row for each agent and target: the `steps` until its greedy episodes reach it; infinity if they do not.
 
-    With the `condition`, the `training_seed` and the `target`.
+    With the `condition`, the `player`, the `training_seed` and the `target`.
     """
     values = {label: its["value"] for label, its in laboratory.untrained(results).items()}
     frame = results.curves(CONDITIONS)
     frame = frame.assign(share=frame.greedy_return / frame.condition.map(values))
     return pandas.DataFrame(
-        {"condition": condition, "training_seed": seed, "target": target}
+        {"condition": condition, "player": player, "training_seed": seed, "target": target}
         | {"steps": curves.first_reached(run, target, of="share")}
-        for (condition, seed), run in frame.groupby(["condition", "training_seed"], sort=False)
+        for (condition, player, seed), run in frame.groupby(["condition", "player", "training_seed"], sort=False)
         for target in TARGETS
     )
 
@@ -42,25 +49,38 @@ def shares(rows) -> tuple[np.ndarray, np.ndarray]:
 
 
 def draw(frame):
-    """Draws the share of pairs reached against steps, of all targets and of each."""
-    figure, axes = plots.new(width=4.6, height=3.0)
-    groups = {f"{target:.0%} of the ideal's return": rows for target, rows in frame.groupby("target")}
-    for number, (name, rows) in enumerate(groups.items()):
-        axes.step(*shares(rows), where="post", color=plots.COLORS[number + 1], linewidth=1.0, label=name)
-    axes.step(*shares(frame), where="post", color="black", linewidth=2.2, label="all targets")
-    axes.set(xscale="log", ylim=(0, 1.02), xlabel="environment steps", ylabel="share of tasks and targets reached")
-    axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+    """Draws the share of pairs reached against steps, of all targets and of each: a panel for each configuration."""
+    by_player = dict(list(frame.groupby("player", sort=False)))
+    figure, panels = plots.new(columns=len(by_player), width=3.2, height=2.8, sharex=True, sharey=True, squeeze=False)
+    for axes, (player, rows) in zip(panels[0], by_player.items(), strict=True):
+        for number, (target, reached) in enumerate(rows.groupby("target"), 1):
+            label = f"{target:.0%} of the ideal's return"
+            axes.step(*shares(reached), where="post", color=plots.COLORS[number], linewidth=1.0, label=label)
+        axes.step(*shares(rows), where="post", color="black", linewidth=2.2, label="all targets")
+        axes.set(xscale="log", ylim=(0, 1.02), xlabel="environment steps", title=LEARNERS[player])
+    panels[0, 0].set_ylabel("share of tasks and targets reached")
+    panels[0, -1].legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
     return figure
 
 
 def table(frame) -> list[tuple[str, ...]]:
-    """Returns a header and a row for each task: the median steps of its agents to each target."""
-    rows = [("task", "agents", *(f"steps to {target:.0%}" for target in TARGETS))]
-    for condition, agents in frame.groupby("condition", sort=False):
+    """Returns a header and a row for each task and configuration: the median steps of its agents to each target."""
+    rows = [("task", "learner", "agents", *(f"steps to {target:.0%}" for target in TARGETS))]
+    for (condition, player), agents in frame.groupby(["condition", "player"], sort=False):
         medians = agents.groupby("target").steps.median()
         cells = (f"{steps:,.0f}" if np.isfinite(steps) else "not reached" for steps in medians)
-        rows.append((laboratory.title(condition), str(agents.training_seed.nunique()), *cells))
+        rows.append((laboratory.title(condition), LEARNERS[player], str(agents.training_seed.nunique()), *cells))
     return rows
+
+
+def _soon(player: str) -> claims.Statistic:
+    """Returns the statistic of the share of targets that are reached within `FEW` steps."""
+
+    def share(rows) -> estimates.Estimate:
+        rows = claims.rows(rows, player=player)
+        return estimates.mean((rows.steps <= FEW).groupby(rows.training_seed).mean())
+
+    return claims.of_rows(share)
 
 
 EXPERIMENTS = {
@@ -69,7 +89,7 @@ EXPERIMENTS = {
         conditions=CONDITIONS,
         prepare=laboratory.prepare,
         load=load,
-        statistics={"soon": claims.mean_of_agents(lambda rows: rows.steps <= FEW, estimates.mean)},
+        statistics={"soon": _soon("belief"), "soon_foreseeing": _soon("belief_foresight")},
         draw=draw,
         table=table,
     )

@@ -404,11 +404,11 @@ def shares(num_agents, generator, **of_learners):
     return of_agents(laboratory.CONDITIONS, num_agents, rows)
 
 
-def steps_to_targets(num_agents, generator, hundreds=1):
-    """Environment steps to shares of the ideal's return, in all domains; `hundreds` are those of the first target."""
+def steps_to_targets(num_agents, generator, **of_learners):
+    """Environment steps to shares of the ideal's return, in all domains; hundreds to the first, by learner."""
 
     def rows(config, seed):
-        steps = 100 * hundreds * 2.0 ** np.arange(len(few.TARGETS)) * generator.uniform(1, 1.2)
+        steps = 100 * of_learners.get(config.player, 1) * 2.0 ** np.arange(len(few.TARGETS)) * generator.uniform(1, 1.2)
         steps[-1] = np.inf
         return {"target": few.TARGETS, "steps": steps}
 
@@ -592,7 +592,12 @@ _MADE = {
         ("foresight misleads", {"belief_foresight": 0.5}, {"belief_foresight"}),
         ("foresight distracts", {"belief_revealed_foresight": 0.9}, {"belief_revealed_foresight"}),
     ),
-    "few": (steps_to_targets, _PAPER, ("slow learners", {"hundreds": 1000}, {"soon"})),
+    "few": (
+        steps_to_targets,
+        _PAPER,
+        ("slow learners", {"belief": 1000}, {"soon"}),
+        ("foresight delays", {"belief_foresight": 1000}, {"soon_foreseeing"}),
+    ),
 }
 
 WORLDS = {name: {world: false for world, _, false in worlds} for name, (_, *worlds) in _MADE.items()}
