@@ -125,10 +125,10 @@ def heavier(
     return Condition(domain="which_is_heavier", task=observations, task_kwargs=task_kwargs, agent=agent)
 
 
-def with_one_worker(condition: Condition, player: str = "") -> Condition:
-    """Returns a condition with A3C of one worker, whose gradients are never stale; it keeps its name if given none."""
+def with_one_worker(condition: Condition) -> Condition:
+    """Returns a condition of the same name with A3C of one worker, whose gradients are never stale."""
     assert isinstance(condition.agent, a3c.A3CConfig)
-    return condition.changed(condition.agent.replace(num_workers=1), player or condition.player)
+    return condition.changed(condition.agent.replace(num_workers=1), condition.player)
 
 
 def towers(actuator: str, observations: str = "features") -> Condition:

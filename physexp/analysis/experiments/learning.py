@@ -16,7 +16,9 @@ _NAMES = {"ppo": "PPO", "a3c": "A3C"}
 
 _NUMBERS = {"a3c": "two workers", "a3c_one_worker": "one worker"}
 _ASYNCHRONOUS = (*conditions.FEATURES, *map(conditions.towers, ("direct", "fist")))
-WORKERS = tuple(each for task in _ASYNCHRONOUS for each in (task, conditions.with_one_worker(task, "a3c_one_worker")))
+WORKERS = tuple(
+    each for task in _ASYNCHRONOUS for each in (task, conditions.with_one_worker(task).changed(player="a3c_one_worker"))
+)
 
 
 def load_heavier(results: base.Results):
