@@ -28,7 +28,7 @@ DOMAIN = base.search_domain(
         },
     },
     targets={
-        "sealed_box-features": ("mean_return", 0.81),
+        "sealed_box-features": ("mean_return", 0.77),
         "sealed_box-pixels": ("mean_return", 0.75),
         "sealed_box-features-physics_timestep0.02": ("mean_return", 0.82),
         "sealed_box-pixels-physics_timestep0.02": ("mean_return", 0.76),
