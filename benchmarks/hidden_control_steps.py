@@ -30,12 +30,12 @@ class Search:
         widest = int(VARIATION * usual)
         lengths = np.arange(usual - widest, usual + widest + 1)
         self.num_actions, self.size = known.task.num_interactions, size * len(lengths)
-        self.substeps, self.answers = np.repeat(lengths, size), np.tile(known.answers, len(lengths))
+        self.answers = np.tile(known.answers, len(lengths))
         settings = np.array([(lengths == usual).astype(float), np.full(len(lengths), 1 / len(lengths))])
         self.weights = np.einsum("sl,h->slh", settings, known.prior).reshape(2, -1)  # In each setting.
         self.batch = suite.BatchEnvironment(known.task, self.num_actions * self.size, NUM_THREADS)
         self.batch.reset(hidden=np.concatenate([known.hidden] * (self.num_actions * len(lengths))))
-        self.batch.ledger.substeps[:] = np.tile(self.substeps, self.num_actions)
+        self.batch.ledger.substeps[:] = np.tile(np.repeat(lengths, size), self.num_actions)
         self.readings: dict[bytes, int] = {}
 
     def run(self, depth: int) -> np.ndarray:
