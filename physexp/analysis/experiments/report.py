@@ -12,7 +12,7 @@ from physexp.agents import files
 from physexp.analysis.data import estimates, plots, provenance, text
 from physexp.analysis.experiments import EXPERIMENTS, base, conditions, sweep
 from physexp.analysis.experiments import claims as claims_lib
-from physexp.analysis.training import callbacks
+from physexp.analysis.training import callbacks, records
 
 _INTRODUCTION = (
     "The paper is *Learning to Perform Physics Experiments via Deep Reinforcement Learning* (Denil et al., ICLR "
@@ -21,8 +21,8 @@ _INTRODUCTION = (
     "of 5 %, corrected for the number of conditions in which the same claim is tested (Holm, 1979); the 95 % "
     "intervals shown are not corrected. Sanity checks, which could fail only if something were broken, are not "
     "counted. The ranges of all claims, and when each was written down, are in docs/plan.md; a statistic that was "
-    "found in these data says so, and its verdict describes them. Of the agents planned, those that are not trained "
-    "yet are named below their figure."
+    "found in these data says so, and its verdict describes them. Conditions with fewer "
+    "agents than planned are named below their figure."
 )
 _POWER = (
     "**Power.** Claims about agents are about their mean, with Student's interval, so one agent decides nothing. Four "
@@ -181,14 +181,13 @@ def _section(experiment: base.Experiment, data: Any, results: base.Results) -> l
     if experiment.table and (table := experiment.table(data)):
         paragraphs.append(markdown_table(table))
     finished = set(results.load("runs", ["run"]).run)
-    seeds = collections.defaultdict(list)
+    is_trained = collections.defaultdict(list)
     for job in sweep.jobs([experiment], conditions.OBSERVATIONS, conditions.SEEDS.__getitem__):
-        if job.config.name not in finished:
-            condition, _, seed = job.config.name.rpartition("-seed")
-            seeds[condition].append(seed)
-    if seeds:
-        words = "; ".join(f"{condition} ({', '.join(its)})" for condition, its in seeds.items())
-        paragraphs.append(f"Planned, and not trained yet (seeds): {words}.")
+        is_trained[records.condition_id(job.config)].append(job.config.name in finished)
+    open_conditions = {condition: its for condition, its in is_trained.items() if not all(its)}
+    if open_conditions:
+        words = "; ".join(f"{condition} ({sum(its)} of {len(its)})" for condition, its in open_conditions.items())
+        paragraphs.append(f"Conditions with fewer agents than planned: {words}.")
     return paragraphs
 
 
