@@ -192,7 +192,7 @@ def with_papers_learner(condition: Condition) -> Condition:
         observation_scale=1.0,
         relative_pixels=False,
     )
-    return with_one_worker(condition.changed(agent))
+    return condition.changed(agent)
 
 
 def with_belief(condition: Condition, **changes: Any) -> Condition:
