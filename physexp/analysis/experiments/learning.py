@@ -15,9 +15,16 @@ LEARNERS = tuple(condition for task in _TASKS for condition in (task, conditions
 _NAMES = {"ppo": "PPO", "a3c": "A3C"}
 
 _NUMBERS = {"a3c": "two workers", "a3c_one_worker": "one worker"}
-_ASYNCHRONOUS = (*conditions.FEATURES, *map(conditions.towers, ("direct", "fist")))
+_OWN = ", the paper's own"  # A remark to the label of a condition.
+_ASYNCHRONOUS = (
+    *conditions.FEATURES,
+    *map(conditions.towers, ("direct", "fist")),
+    conditions.with_papers_learner(conditions.BY_LABEL["10-F"]),
+)
 WORKERS = tuple(
-    each for task in _ASYNCHRONOUS for each in (task, conditions.with_one_worker(task).changed(player="a3c_one_worker"))
+    each
+    for task in _ASYNCHRONOUS
+    for each in (task, conditions.with_one_worker(task).changed(player=f"{task.player}_one_worker"))
 )
 
 
@@ -26,6 +33,15 @@ def load_heavier(results: base.Results):
     frame = results.curves(conditions.HEAVIER)
     frame.attrs["ideal"] = [each.ideal().figures()["accuracy"] for each in conditions.FEATURES]
     return frame
+
+
+def with_own_apart(frame):
+    """Returns learning curves in which the paper's own learner is A3C, in conditions of its own."""
+    is_own = frame.player.str.startswith("a3c_paper")
+    return frame.assign(
+        condition=frame.condition.where(~is_own, frame.condition + _OWN),
+        player=frame.player.str.replace("_paper", ""),
+    )
 
 
 def final_success(rows):
@@ -103,8 +119,8 @@ def _draw_workers(frame):
     for axes, (name, rows) in zip(panels[0], by_task.items(), strict=True):
         players = dict(list(rows.groupby("player")))
         lines = {words: curves.better_half(players[each]) for each, words in _NUMBERS.items() if each in players}
-        curves.draw_panel(axes, lines, conditions.BY_LABEL[name].chance)
-        axes.set_title(conditions.tick(name))
+        curves.draw_panel(axes, lines, conditions.BY_LABEL[claims.named(name)].chance)
+        axes.set_title(conditions.tick(name).replace(_OWN, "\nthe paper's own learner"))
     panels[0, 0].set_ylabel("share of right answers")
     panels[0, 0].legend(loc="lower right", bbox_to_anchor=(1, 0.3))
     return figure
@@ -152,7 +168,7 @@ EXPERIMENTS = {
     "workers": base.Experiment(
         **claims.described("workers"),
         conditions=WORKERS,
-        load=lambda results: results.curves(WORKERS),
+        load=lambda results: with_own_apart(results.curves(WORKERS)),
         statistics={
             "as_many_steps": _between(_NUMBERS, ratio_of_steps),
             "as_right": _between(_NUMBERS, _ratio_of_ends),

@@ -101,9 +101,10 @@ def two_learners(num_agents, generator, ppo=5e5, a3c=2e6, seconds_of_a_ppo_frame
 
 def two_workers(num_agents, generator, steps=1.0, plateau=0.97):
     """A3C with one worker and with two, which end at a plateau; `steps` is the ratio of their steps, two over one."""
-    at = {(config.label, config.player): 1e6 * (steps if config.player == "a3c" else 1) for config in learning.WORKERS}
-    ends = {(label, player): plateau if player == "a3c" else 0.97 for label, player in at}
-    return curves(num_agents, generator, learning.WORKERS, ends, at)
+    is_alone = {(config.label, config.player): config.agent.num_workers == 1 for config in learning.WORKERS}
+    at = {key: 1e6 if alone else 1e6 * steps for key, alone in is_alone.items()}
+    ends = {key: 0.97 if alone else plateau for key, alone in is_alone.items()}
+    return learning.with_own_apart(curves(num_agents, generator, learning.WORKERS, ends, at))
 
 
 def scores(num_agents, generator, middles, seconds_of_a_frame=0.0005):
