@@ -133,8 +133,7 @@ def with_one_worker(condition: Condition) -> Condition:
 
 def towers(actuator: str, observations: str = "features") -> Condition:
     """Returns A3C on Towers with an actuator."""
-    condition = _with_preset("towers", f"{actuator}_{observations}")
-    return with_one_worker(condition) if observations == "pixels" else condition
+    return _with_preset("towers", f"{actuator}_{observations}")
 
 
 def _with_preset(domain: str, task: str) -> Condition:
@@ -147,9 +146,7 @@ def _with_preset(domain: str, task: str) -> Condition:
 
 FEATURES = tuple(heavier(beta, "features", _BUDGETS[f"{beta:g}-F"].a3c) for beta in DIFFICULTIES)
 
-_PIXELS = tuple(heavier(beta, "pixels", _BUDGETS[f"{beta:g}-P"].a3c) for beta in DIFFICULTIES)
-
-HEAVIER = (*FEATURES, *(with_one_worker(task) for task in _PIXELS))
+HEAVIER = (*FEATURES, *(heavier(beta, "pixels", _BUDGETS[f"{beta:g}-P"].a3c) for beta in DIFFICULTIES))
 """A3C at the paper's gamma of 0.95."""
 
 PATIENT = tuple(
