@@ -107,7 +107,6 @@ _BUDGETS = {  # The easier the task, the sooner its curve is flat.
     "crush features": _Budget("crush features", belief=60_000, a3c=1_000_000),
     "lump features": _Budget("lump features", belief=40_000, a3c=1_000_000),
 }
-_PAPERS_FRAMES = 2_000_000  # Of the paper's own learner at difficulty 10 from features.
 # Of the belief learner at difficulty 5 from features with noise, without foresight and with it.
 _NOISY_FRAMES, _FORESEEING_FRAMES = 120_000, 300_000
 _TIMED_FRAMES = 200_000  # Of the belief learner with the fist from features, with control steps of many lengths.
@@ -165,6 +164,19 @@ def by_actuator(observations: str) -> list[str]:
 BY_LABEL = {condition.label: condition for condition in (*HEAVIER, *TOWERS)}
 """A3C on the paper's tasks, by their labels."""
 
+PAPERS_OWN = BY_LABEL["10-F"].changed(
+    a3c.A3CConfig(
+        discount=which_is_heavier.DOMAIN.discount,
+        frames=2_000_000,
+        learning_rate=0.01,
+        entropy_cost=1.0,
+        envs_per_worker=1,
+        observation_scale=1.0,
+        relative_pixels=False,
+    )
+)
+"""A3C as in the paper, with one episode an update, raw observations, and no hint, where answers are learned soonest."""
+
 OTHERS = THRESHOLD, BALANCE, STRINGS, SEALED_BOX, STRIKE, CRUSH, LUMP = tuple(
     with_one_worker(_with_preset(domain, "features"))
     for domain in ("threshold", "balance", "strings", "sealed_box", "strike", "crush", "lump")
@@ -176,20 +188,6 @@ def with_ppo(condition: Condition) -> Condition:
     """Returns a condition with PPO as the learner."""
     agent = config_lib.preset(condition.domain, condition.task, algorithm="ppo")
     return condition.changed(agent.replace(discount=condition.agent.discount, num_threads=1))
-
-
-def with_papers_learner(condition: Condition) -> Condition:
-    """Returns a condition with A3C as in the paper: one episode an update, raw observations, and no hint."""
-    agent = a3c.A3CConfig(
-        discount=condition.agent.discount,
-        frames=_PAPERS_FRAMES,
-        learning_rate=0.01,
-        entropy_cost=1.0,
-        envs_per_worker=1,
-        observation_scale=1.0,
-        relative_pixels=False,
-    )
-    return condition.changed(agent)
 
 
 def with_belief(condition: Condition, **changes: Any) -> Condition:

@@ -24,10 +24,7 @@ LEARNERS = {
     "a3c_paper": "the paper's own",
 }
 """The learners by their titles, in words."""
-CONDITIONS = (
-    *conditions.with_each_learner(TASKS),
-    conditions.with_papers_learner(conditions.BY_LABEL["10-F"]),  # Answers are learned soonest there.
-)
+CONDITIONS = (*conditions.with_each_learner(TASKS), conditions.PAPERS_OWN)
 
 # Without replay, training uses only the last round.
 VARIANTS: dict[str, tuple[str, dict[str, Any]]] = {

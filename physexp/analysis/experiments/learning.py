@@ -16,14 +16,9 @@ _NAMES = {"ppo": "PPO", "a3c": "A3C"}
 
 _NUMBERS = {"a3c": "two workers", "a3c_one_worker": "one worker"}
 _OWN = ", the paper's own"  # A remark to the label of a condition.
-_ASYNCHRONOUS = (
-    *conditions.FEATURES,
-    *map(conditions.towers, ("direct", "fist")),
-    conditions.with_papers_learner(conditions.BY_LABEL["10-F"]),
-)
 WORKERS = tuple(
     each
-    for task in _ASYNCHRONOUS
+    for task in (*conditions.BY_LABEL.values(), conditions.PAPERS_OWN)
     for each in (task, conditions.with_one_worker(task).changed(player=f"{task.player}_one_worker"))
 )
 
@@ -113,15 +108,19 @@ def _draw_towers(frame):
 
 
 def _draw_workers(frame):
-    """Draws a panel for each condition."""
+    """Draws a panel for each condition, in two rows."""
     by_task = dict(list(frame.groupby("condition", sort=False)))
-    figure, panels = plots.new(columns=len(by_task), width=2.0, height=2.2, sharey=True, squeeze=False)
-    for axes, (name, rows) in zip(panels[0], by_task.items(), strict=True):
+    columns = -(-len(by_task) // 2)
+    figure, panels = plots.new(rows=2, columns=columns, width=2.0, height=2.2, sharey=True, squeeze=False)
+    for axes in panels.flat[len(by_task) :]:
+        axes.remove()
+    for axes, (name, rows) in zip(panels.flat, by_task.items(), strict=False):
         players = dict(list(rows.groupby("player")))
         lines = {words: curves.better_half(players[each]) for each, words in _NUMBERS.items() if each in players}
         curves.draw_panel(axes, lines, conditions.BY_LABEL[claims.named(name)].chance)
         axes.set_title(conditions.tick(name).replace(_OWN, "\nthe paper's own learner"))
-    panels[0, 0].set_ylabel("share of right answers")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("share of right answers")
     panels[0, 0].legend(loc="lower right", bbox_to_anchor=(1, 0.3))
     return figure
 

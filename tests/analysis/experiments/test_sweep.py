@@ -165,9 +165,9 @@ def test_experiments_that_need_the_same_agent_train_it_once():
     jobs = sweep.jobs(list(EXPERIMENTS.values()), conditions.OBSERVATIONS, lambda kind: 2)
     names = [job.config.name for job in jobs]
     # Of each of the paper's ten tasks and of seven others: A3C, PPO, and the belief learner in both tracks; the paper's
-    # own learner; three patient A3C, six of one worker; three ablations in two tasks; five with variation; two near
+    # own learner; three patient A3C, eleven of one worker; three ablations in two tasks; five with variation; two near
     # the tower; two with noise; and foresight in both tracks in ten tasks.
-    count = (10 + 7) * 4 + 1 + 3 + 6 + 3 * 2 + 5 + 2 + 2 + 10 * 2
+    count = (10 + 7) * 4 + 1 + 3 + 11 + 3 * 2 + 5 + 2 + 2 + 10 * 2
     assert len(names) == len(set(names)) == 2 * count
     assert [job.config.agent.seed for job in jobs] == [0] * count + [1] * count
     fist = next(job for job in jobs if job.config.task == "fist_features")
