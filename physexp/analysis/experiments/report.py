@@ -103,7 +103,13 @@ def _summary(rows: Sequence[Row], configs: Sequence[str]) -> list[str]:
         f"Of {len(by_text)} claims of the paper, {len(held)} hold wherever they are tested, {len(failed)} fail "
         f"somewhere, and {len(is_open)} cannot be decided somewhere."
     )
-    words = [numbers, _plainly("Replicated", held), _plainly("Not replicated", failed), _workers(configs)]
+    words = [
+        numbers,
+        _plainly("Replicated", held),
+        _plainly("Not replicated", failed),
+        _plainly("Undecided", is_open),
+        _workers(configs),
+    ]
     points = {
         "Replicated:": [f"{_named(its)} ({len(its)} condition{'' if len(its) == 1 else 's'})." for its in held],
         "Not replicated:": [
