@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import math
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +56,14 @@ def new(columns: int = 1, rows: int = 1, width: float = 3.4, height: float = 2.6
     """
     figure = empty(width * columns, height * rows)
     return figure, figure.subplots(rows, columns, **kwargs)
+
+
+def grid(count: int, columns: int, **kwargs: Any):
+    """Returns a figure and axes as `new` does, [rows, columns], without those in the last row beyond a count."""
+    figure, panels = new(columns=columns, rows=math.ceil(count / columns), squeeze=False, **kwargs)
+    for axes in panels.flat[count:]:
+        axes.remove()
+    return figure, panels
 
 
 def empty(width: float, height: float):

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 import itertools
-from typing import Any
 
 import numpy as np
 import pandas
@@ -87,11 +86,8 @@ def _cell(agents) -> str:
 def draw(frame):
     """Draws a panel for each domain: every agent's share of the ideal's return, and that of random interactions."""
     by_task = dict(list(frame.groupby("condition", sort=False)))
-    num_columns = min(5, len(by_task))
-    grid: dict[str, Any] = dict(columns=num_columns, rows=-(-len(by_task) // num_columns), width=1.9, height=2.0)
-    figure, panels = plots.new(**grid, sharex=True, sharey=True, squeeze=False)
-    for axes in panels.flat[len(by_task) :]:
-        axes.set_axis_off()
+    shared = {"sharex": True, "sharey": True}
+    figure, panels = plots.grid(len(by_task), columns=min(5, len(by_task)), width=1.9, height=2.0, **shared)
     for axes, (label, agents) in zip(panels.flat, by_task.items(), strict=False):
         value, _, random_value = agents[_UNTRAINED].iloc[0]
         plots.reference(axes, 1.0, "")

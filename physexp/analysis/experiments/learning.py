@@ -110,10 +110,7 @@ def _draw_towers(frame):
 def _draw_workers(frame):
     """Draws a panel for each condition, in two rows."""
     by_task = dict(list(frame.groupby("condition", sort=False)))
-    columns = -(-len(by_task) // 2)
-    figure, panels = plots.new(rows=2, columns=columns, width=2.0, height=2.2, sharey=True, squeeze=False)
-    for axes in panels.flat[len(by_task) :]:
-        axes.remove()
+    figure, panels = plots.grid(len(by_task), columns=-(-len(by_task) // 2), width=2.0, height=2.2, sharey=True)
     for axes, (name, rows) in zip(panels.flat, by_task.items(), strict=False):
         players = dict(list(rows.groupby("player")))
         lines = {words: curves.better_half(players[each]) for each, words in _NUMBERS.items() if each in players}
