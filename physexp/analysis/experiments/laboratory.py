@@ -86,8 +86,9 @@ def _cell(agents) -> str:
 def draw(frame):
     """Draws a panel for each domain: every agent's share of the ideal's return, and that of random interactions."""
     by_task = dict(list(frame.groupby("condition", sort=False)))
-    shared = {"sharex": True, "sharey": True}
-    figure, panels = plots.grid(len(by_task), columns=min(5, len(by_task)), width=1.9, height=2.0, **shared)
+    figure, panels = plots.grid(
+        len(by_task), columns=min(5, len(by_task)), width=1.9, height=2.0, sharex=True, sharey=True
+    )
     for axes, (label, agents) in zip(panels.flat, by_task.items(), strict=False):
         value, _, random_value = agents[_UNTRAINED].iloc[0]
         plots.reference(axes, 1.0, "")
