@@ -143,8 +143,29 @@ def test_targets_of_interactions_follow_from_the_step_after_them(case):
     answering, interacting, are_greedy = (torch.tensor(column)[:, None] for column in columns)
     are_last = (torch.arange(len(answering)) == len(answering) - 1)[:, None]
     rewards = -are_last.float()
-    found = losses.interaction_targets(answering, interacting, are_greedy, are_last, rewards, 0.9, lambda_)
+    found = losses.interaction_targets(answering, interacting, are_greedy, are_last, are_last, rewards, 0.9, lambda_)
     assert found[0].item() == pytest.approx(expected)
+
+
+def test_an_interaction_before_an_early_stop_is_worth_what_could_have_followed():
+    # The best that could have followed the stop is worth 0.6; where an answer had to be given, it is the answer's 0.2.
+    answering, interacting, rewards = torch.tensor([[[-0.5], [0.2]], [[0.1], [0.6]], [[0.0], [-1.0]]])
+    are_last = torch.tensor([[False], [True]])
+    for are_final, value in ((torch.zeros(2, 1, dtype=torch.bool), 0.6), (are_last, 0.2)):
+        found = losses.interaction_targets(answering, interacting, are_last, are_last, are_final, rewards, 0.9, 0.5)
+        assert found[0].item() == pytest.approx(0.9 * value)
+
+
+@pytest.mark.parametrize("foresight", [True, False])
+def test_with_foresight_only_the_cap_of_interactions_ends_an_episode(foresight):
+    learner = make_agent(SMALL.replace(seed=fresh_seed(), foresight=foresight, max_interactions=8), "strike")
+    learner.step()
+    played = learner.last_round
+    are_ends, _, _ = learner._label_targets(played, torch.zeros(*played.actions.shape, 7))
+    are_final = learner._final_steps(are_ends).expand_as(are_ends)
+    steps = torch.arange(len(are_ends))[:, None]
+    assert (are_ends & (steps < 8)).any(), "some episodes are stopped early"
+    assert torch.equal(are_final & are_ends, are_ends & (steps >= 8) if foresight else are_ends)
 
 
 def test_beliefs_and_values_belong_to_the_question_that_is_asked():
@@ -220,6 +241,19 @@ def test_acting_and_training_compute_the_same(domain, task, memory, foresight):
     environment.close()
 
 
+def test_a_new_agent_with_foresight_expects_little_of_interactions():
+    seed = fresh_seed()
+    environment = load("strike", "features", seed)
+    network = make_network(environment, seed, SMALL.replace(foresight=True))
+    inputs = network.encode(acting.as_tensors(environment.reset(episode=0).observation))
+    output, _ = network.step(inputs, network.initial_state(SIZE))
+    interacting, answering = output.action_values.tensor_split([network.num_interactions], dim=1)
+    answer = answering.amax(1, keepdim=True)
+    shares = (interacting / network.discount - answer) / (1 - answer)
+    assert (shares > 0).all() and (shares < 0.2).all()
+    environment.close()
+
+
 @pytest.mark.parametrize("foresight", [False, True])
 def test_no_member_learns_from_its_held_out_episodes(foresight, monkeypatch):
     monkeypatch.setattr(belief, "_DROPOUT", 0.0)
@@ -265,12 +299,12 @@ def test_each_environment_has_one_held_out_member():
     environment.close()
 
 
-def first_choices(monkeypatch, action_values, num_interactions, **constants):
+def first_choices(monkeypatch, action_values, num_interactions, random_starts=False, **constants):
     """Returns the first actions of 6000 episodes in which actions have these values, and the policy."""
     monkeypatch.setattr(config_lib, "NUM_ENVIRONMENTS", 6000)
     for name, value in constants.items():
         monkeypatch.setattr(belief_acting, name, value)
-    policy = belief_acting.BehaviourPolicy(num_interactions, 8, fresh_seed(), 0)
+    policy = belief_acting.BehaviourPolicy(num_interactions, 8, fresh_seed(), 0, random_starts=random_starts)
     values = torch.tensor(action_values).repeat(6000, 1)
     output = networks_lib.Output(values, values.max(1).values, values)
     return policy.choose(output, np.arange(6000), 0), policy
@@ -283,6 +317,16 @@ def test_the_environments_explore_from_much_to_little(monkeypatch):
     assert policy.are_greedy.tolist() == [True] * 3000 + [False] * 3000 and not actions[:3000].any()
     assert (actions[3000:3100] != 0).mean() == pytest.approx(0.75 * 0.6, abs=0.25)  # Five standard errors.
     assert (actions[-1000:] != 0).mean() < 0.75 * 0.6 / 5
+
+
+def test_a_quarter_of_exploring_episodes_begins_at_random_with_random_starts(monkeypatch):
+    # The first of four interactions is best by far, so three of four random ones are others.
+    values, constants = [1.0, 0, 0, 0, -1, -1, -1, -1], {"_EARLY_STOP_FRACTION": 0.0, "_EPSILON_MAX": 0.0}
+    for random_starts, share in ((True, 0.75 * 0.25), (False, 0)):
+        actions, policy = first_choices(monkeypatch, values, 4, random_starts, **constants)
+        assert not actions[policy.are_greedy].any()
+        # Five standard errors of a share of 4500 draws: 5 * sqrt(0.19 * 0.81 / 4500) = 0.029.
+        assert (actions[~policy.are_greedy] != 0).mean() == pytest.approx(share, abs=0.029 if share else 0)
 
 
 def test_answers_in_training_are_drawn_from_the_belief_and_some_uniformly(monkeypatch):

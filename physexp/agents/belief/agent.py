@@ -49,7 +49,9 @@ class Belief(synchronous.SynchronousAgent):
         config, variables, number = self._config, self.variables, self.next_episode
         num_questions = self._environment.num_questions
         network = variables.network
-        policy = acting.BehaviourPolicy(network.num_interactions, network.max_interactions, config.seed, number)
+        policy = acting.BehaviourPolicy(
+            network.num_interactions, network.max_interactions, config.seed, number, random_starts=config.foresight
+        )
         self.last_round = played = self._play(number, policy.choose)
         variables.episodes.add(played, number)
         self._measure_changes(played)
@@ -96,8 +98,9 @@ class Belief(synchronous.SynchronousAgent):
         best = (shares.detach() * learns[..., None]).sum(0).argmax(-1)  # By the members that learn from the episode.
         interacting = network.values(beliefs, held_out_shares).gather(-1, best[..., None])[..., 0]
         answering, rewards = losses.answer_values(beliefs.amax(-1)), torch.from_numpy(episodes.rewards)
+        are_final = self._final_steps(are_ends)
         targets = losses.interaction_targets(
-            answering, interacting, best == actions, are_ends, rewards, config.discount, _LAMBDA
+            answering, interacting, best == actions, are_ends, are_final, rewards, config.discount, _LAMBDA
         )
         taken = actions.clamp(max=network.num_interactions - 1).expand(len(logits), *actions.shape)
         values = network.values(beliefs, shares).gather(-1, taken[..., None])[..., 0]
@@ -140,6 +143,16 @@ class Belief(synchronous.SynchronousAgent):
             labels = losses.label_posterior(held_out_logits[at_end], answered[at_end], are_right[at_end])
             are_counted = played & are_answers[at_end]
         return are_ends, labels, are_counted if self._config.learns_every_step else are_counted & are_ends
+
+    def _final_steps(self, are_ends: torch.Tensor) -> torch.Tensor:
+        """Returns at which steps an answer is valued in place of what could follow, bool [T, B] or [T, 1].
+
+        Exploring episodes are stopped early, and an interaction before that would seem to be worth less than it is. So
+        with foresight only the step counts after which no interaction is allowed.
+        """
+        if not self._config.foresight:
+            return are_ends
+        return (torch.arange(len(are_ends)) >= self.variables.network.max_interactions)[:, None]
 
     def _measure_changes(self, played: rounds.Round) -> None:
         """Updates the unit of inputs: their root mean square change since the start of the episode."""

@@ -49,7 +49,7 @@ class BeliefConfig(config.AgentConfig):
         False,
         checks.flag,
         "the belief adds up the evidence of all steps, and is learned at the last one unless answers are revealed; "
-        "members learn to foresee observations",
+        "members learn to foresee observations; and some episodes of training begin with a random interaction",
     )
     max_interactions: int = checked(
         8,

@@ -59,22 +59,23 @@ def interaction_targets(
     interacting: torch.Tensor,
     are_greedy: torch.Tensor,
     are_last: torch.Tensor,
+    are_final: torch.Tensor,
     rewards: torch.Tensor,
     discount: float,
     lambda_: float,
 ) -> torch.Tensor:
     """Returns the targets of the values of interactions, [T, B]; they mean nothing where no interaction was taken.
 
-    The target of an interaction is `gamma * V` of the step that follows it, `V = max(S, max Q)`, and at the last step
-    `V = S`: nothing follows there that `Q` could be learned from, so a target with `Q` would follow its extrapolation.
-    As long as the interactions that follow are greedy, the return from there counts by `lambda` instead of `V`
+    The target of an interaction is `gamma * V` of the step that follows it, `V = max(S, max Q)`, or `V = S` at a final
+    step. As long as the interactions that follow are greedy, the return from there counts by `lambda` instead of `V`
     (Watkins' Q(lambda): Watkins, 1989). The target of an interaction that ends the episode is its reward.
 
     `answering` is S and `interacting` max Q, [T, B]; `are_greedy` says where the interaction taken is that of max Q,
-    and `are_last` which step is the last one for its question, bool [T, B]. The rewards, [T, B], are of these steps:
-    each question is valued as if it were the last one of its episode.
+    `are_last` which step is the last one for its question, and `are_final` at which steps an answer has to be given,
+    bool [T, B]. The rewards, [T, B], are of these steps: each question is valued as if it were the last one of its
+    episode.
     """
-    values = torch.where(are_last, answering, torch.maximum(answering, interacting))
+    values = torch.where(are_final, answering, torch.maximum(answering, interacting))
     goes_on = are_greedy & (interacting > answering) & ~are_last
     targets = rewards.clone()
     for step in range(len(values) - 2, -1, -1):

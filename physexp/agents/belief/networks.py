@@ -19,6 +19,7 @@ ENSEMBLE_SIZE = 4
 _NUM_HEADS = 4
 _WIDTH = 64  # Units of a layer, or of all heads together.
 _PIXEL_SCALE = 10.0  # Changes in an image are of the order of a tenth of its range.
+_FIRST_SHARE = -3.0  # Bias of the shares of a new network with foresight, whose logit it is: x is about 0.05.
 _LEAST_LOG = -6.0  # Of a probability that the values are told; less likely labels do not matter to them.
 _STILL = 0.01  # A step in which everything moves by less than this share of the unit shows no clear direction.
 _TEMPERATURE = 0.001  # Of the policy: actions are as good as equal when their values differ by less.
@@ -38,8 +39,9 @@ class BeliefNetwork(networks.RecurrentNetwork):
     things moved together, however far. A question that is told is in the first observation itself.
 
     With `foresight` the belief is proportional to a product of evidence, a factor for each step, as Bayes' rule has it:
-    its logits are sums over the steps. The values are told the belief. And members learn to foresee the change of the
-    observation by an interaction, for which no label is needed.
+    its logits are sums over the steps. The values are told the belief. Members learn to foresee the change of the
+    observation by an interaction, for which no label is needed. And in a new network `x` is small, so that an
+    interaction is worth little more than an answer until it is seen to be worth more.
 
     The convolutions keep their random weights, which preserve the content of an image (Saxe et al., 2011), so that each
     image passes them once, when it is played. A projection, shared by all members, learns the part that matters.
@@ -210,6 +212,7 @@ class Members(nn.Module):
         num_told = num_labels if self.foresees else 0
         self.belief, self.shares = Linear(_WIDTH, num_labels), Linear(_WIDTH + num_told, num_interactions)
         if self.foresees:
+            nn.init.constant_(self.shares.bias, _FIRST_SHARE)
             self.expecting, self.expected = Linear(_WIDTH + num_interactions, _WIDTH), Linear(_WIDTH, num_foreseen)
 
     def forward(self, history: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
