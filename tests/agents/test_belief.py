@@ -147,7 +147,7 @@ def test_targets_of_interactions_follow_from_the_step_after_them(case):
     assert found[0].item() == pytest.approx(expected)
 
 
-def test_an_interaction_before_an_early_stop_is_worth_what_could_have_followed():
+def test_early_stops_do_not_count_against_the_interaction_before_them():
     # The best that could have followed the stop is worth 0.6; where an answer had to be given, it is the answer's 0.2.
     answering, interacting, rewards = torch.tensor([[[-0.5], [0.2]], [[0.1], [0.6]], [[0.0], [-1.0]]])
     are_last = torch.tensor([[False], [True]])
@@ -319,7 +319,7 @@ def test_the_environments_explore_from_much_to_little(monkeypatch):
     assert (actions[-1000:] != 0).mean() < 0.75 * 0.6 / 5
 
 
-def test_a_quarter_of_exploring_episodes_begins_at_random_with_random_starts(monkeypatch):
+def test_with_random_starts_a_quarter_of_exploring_episodes_has_one(monkeypatch):
     # The first of four interactions is best by far, so three of four random ones are others.
     values, constants = [1.0, 0, 0, 0, -1, -1, -1, -1], {"_EARLY_STOP_FRACTION": 0.0, "_EPSILON_MAX": 0.0}
     for random_starts, share in ((True, 0.75 * 0.25), (False, 0)):

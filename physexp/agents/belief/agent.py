@@ -145,7 +145,7 @@ class Belief(synchronous.SynchronousAgent):
         return are_ends, labels, are_counted if self._config.learns_every_step else are_counted & are_ends
 
     def _final_steps(self, are_ends: torch.Tensor) -> torch.Tensor:
-        """Returns at which steps an answer is valued in place of what could follow, bool [T, B] or [T, 1].
+        """Returns the steps that are worth an answer alone, bool [T, B] or [T, 1].
 
         Exploring episodes are stopped early, and an interaction before that would seem to be worth less than it is. So
         with foresight only the step counts after which no interaction is allowed.
