@@ -157,7 +157,8 @@ def test_early_stops_do_not_count_against_the_interaction_before_them():
 
 
 @pytest.mark.parametrize("foresight", [True, False])
-def test_with_foresight_only_the_cap_of_interactions_ends_an_episode(foresight):
+def test_with_foresight_only_the_cap_of_interactions_ends_an_episode(foresight, monkeypatch):
+    monkeypatch.setattr(belief_acting, "_EARLY_STOP_FRACTION", 1.0)
     learner = make_agent(SMALL.replace(seed=fresh_seed(), foresight=foresight, max_interactions=8), "strike")
     learner.step()
     played = learner.last_round
