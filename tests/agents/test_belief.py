@@ -437,6 +437,14 @@ def test_right_labels_are_learned_from_only_if_they_are_revealed(answers_reveale
     assert bool(differing) == answers_revealed
 
 
+def test_windows_of_episodes_that_all_return_the_same_are_compared():
+    for steps in range(1, 12):  # For some, the mean square rounds to less than the square of the mean.
+        variables, value = make_agent().variables, SMALL.discount**steps
+        variables.compare(torch.full((512,), value, dtype=torch.float64))
+        best, variance, *_, is_worse = variables.scores.tolist()
+        assert best == pytest.approx(value) and 0 <= variance < 1e-12 and not is_worse
+
+
 def test_the_agent_falls_back_to_the_best_window_after_a_worse_one():
     agent = make_agent()
     variables = agent.variables

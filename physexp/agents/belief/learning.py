@@ -59,7 +59,7 @@ class Variables(learning.Variables[networks.BeliefNetwork]):
             self.scores[2:5] = torch.tensor([count, total, squares], dtype=torch.float64)
             return
         mean = total / count
-        own_variance = (squares / count - mean**2) / count
+        own_variance = max(0.0, squares / count - mean**2) / count  # Equal returns round to less than 0.
         # Two standard errors: a difference within them is luck.
         is_worse = mean < best - 2 * math.sqrt(variance + own_variance)
         if mean > best:
