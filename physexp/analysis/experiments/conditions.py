@@ -102,7 +102,7 @@ _BUDGETS = {  # The easier the task, the sooner its curve is flat.
     "threshold features": _Budget("threshold features", belief=60_000),
     "balance features": _Budget("balance features", belief=150_000, foresight=600_000),
     "strings features": _Budget("strings features", belief=150_000),
-    "sealed_box features": _Budget("sealed_box features", belief=200_000, foresight=600_000),
+    "sealed_box features": _Budget("sealed_box features", belief=200_000),
     "strike features": _Budget("strike features", belief=300_000),
     "crush features": _Budget("crush features", belief=60_000, a3c=1_000_000),
     "lump features": _Budget("lump features", belief=40_000, a3c=1_000_000),
