@@ -53,7 +53,7 @@ def coordinates(batch) -> np.ndarray:
 def assert_moves_as(models, controls, rng, batch, hidden, atol) -> None:
     """Random interactions move things as MuJoCo moves those of models into which the hidden property is compiled.
 
-    Each is compared from the state before it, because things that bounce between walls multiply what was rounded.
+    Each is compared from the state before it, because things that bounce between walls multiply rounding errors.
     """
     data = [mujoco.MjData(model) for model in models]
     for actions, _ in play(rng, batch, hidden):
